@@ -40,7 +40,8 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not arranged: "The tomato" on "the round bun" and "the pizza" together; it is placed on the first'),
         ("a box with a brontosaurus stuffed head on top",
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
-        ("Stack the three bowls, the green one at the bottom, the red one on top.", 'not understood: "at the bottom"'),
+        ("Stack the three bowls, the green one at the bottom, the red one on top.",
+         'not modelled: "Stack the three bowls, the green one at the bottom, the red one on top": no task does that.'),
         ("A coffee cup with latte art.", '"latte art" is made as a "sculpture"'),
     ],
 )  # fmt: skip

@@ -6,13 +6,14 @@ from collections import Counter
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import arranging, covers, lexicon, ranks
+from pat3d.plan.grammar.lexing import normalise, singulars, tokenise
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, stands_on_edge
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
-from pat3d.scene.relations import GROUND, LateralKind, Relation
+from pat3d.scene.relations import GROUND, RELATION_WORDS, LateralKind, Relation
 
 _ORDER = {
     "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
@@ -20,6 +21,14 @@ _ORDER = {
 _KINDS: dict[tuple[int, int], LateralKind] = {
     (0, 0): "left_of", (0, 2): "right_of", (1, 0): "in_front_of", (1, 2): "behind",
 }  # fmt: skip
+
+
+def _parts(prompt: str) -> str:
+    """Which words of `prompt` name a part, a place or any thing at all."""
+    tables = lexicon.PARTS | lexicon.BACKGROUND | lexicon.ITEMS | lexicon.DETACHED
+    told = [f'"{token.text}" (word {token.number})' for token in tokenise(normalise(prompt))
+            if tables & {token.text, *singulars(token.text)}]  # fmt: skip
+    return f": {', '.join(told[:3])}: a part or a place is none" if told else ""
 
 
 def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Item, str]]:
@@ -30,7 +39,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     """
     if not world.items():
         aside = f" Set aside: {'; '.join(world.aside)}." if world.aside else ""
-        raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
+        told = _parts(prompt)
+        raise PromptError(
+            f"the prompt names no object to place{told}.{aside} `pat3d catalogue` lists what can be made."
+        )
     for item in world.items():
         like = [other for other in world.items() if other.group.noun == item.group.noun]
         if item.place and len(like) == 1:
@@ -133,6 +145,9 @@ def _side_alone(world: World, told: Sided) -> None:
     if implied:
         world.beside(told.items, kind, implied[:1])
     elif all(edge.parent not in told.items and edge.child not in told.items for edge in world.laterals):
+        if told.side in ("one", "other"):
+            world.note(f'not arranged: "{told.items[0].group.words}" at one end or side')
+            return
         where = kind.removesuffix("_of").replace("_", " ")
         world.note(f'"{told.items[0].group.words}" ({where}): there is nothing beside it that it could be {where} of.')
 
@@ -272,7 +287,7 @@ def _note_lift(world: World, edge: Edge, pair: tuple[Item, Item]) -> None:
     lifted = [(said, meant) for said, meant in ((edge.child, pair[0]), (edge.parent, pair[1])) if said is not meant]
     if edge.weak or all(said.group is meant.group or meant.group.height > 1 for said, meant in lifted):
         return
-    told, (child, parent) = edge.kind.replace("_", " "), (f'"{item.group.words}"' for item in pair)
+    told, (child, parent) = RELATION_WORDS[edge.kind], (f'"{item.group.words}"' for item in pair)
     world.note(f'"{edge.child.group.words}" {told} "{edge.parent.group.words}": {child} is {told} {parent}.')
 
 
@@ -293,7 +308,7 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
         if pair is None:
             if not edge.weak:
                 world.note(
-                    f'"{edge.child.group.words}" {edge.kind} "{edge.parent.group.words}" is left out: '
+                    f'"{edge.child.group.words}" {RELATION_WORDS[edge.kind]} "{edge.parent.group.words}" is left out: '
                     "one carries the other."
                 )
             continue

@@ -23,11 +23,14 @@ from pat3d.plan.grammar.displaced import (
     in_place,
     stateless,
 )
+from pat3d.plan.grammar.enumerated import enumerated
+from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
+from pat3d.plan.grammar.outcomes import with_articles
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
@@ -50,6 +53,7 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
     "so that it is", "so that it stands", "so that they are", "so that they stand",
+    "seen from above", "viewed from above", "seen from the side", "seen from the front", "as seen from above",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
@@ -79,34 +83,18 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = in_several_places(of_things(from_below(tokens, nouns), nouns), nouns)
-    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
+    tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
+    tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
-
-
-def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
-    """`sentences` with "there are three plates" before the "every plate" of which it gives the number."""
-    made = list(sentences)
-    for at, sentence in enumerate(made):
-        words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
-            continue
-        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
-        for before in range(at):
-            told = [token.text for token in made[before]]
-            follows = (two for one, two in zip(told, told[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
-                made.insert(before, made.pop(at))
-                break
-    return made
+    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
@@ -195,6 +183,15 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
     words = [token.text for token in tokens]
+    for at in range(1, len(words) - 6):
+        comma = at + 2 + link_at(tokens, at + 1) if words[at] == "and" else at
+        second = next((n for n in range(comma + 3, len(words) - 2) if tokens[n].mark), 0)
+        on_it = words[comma] == "," and words[comma - 1] in ("it", "them") and link_at(tokens, comma + 1)
+        if on_it and second and words[second] == "," and words[second + 1] in ("a", "an", "the"):
+            # "and on it, next to a lamp, a clock": on it a clock next to a lamp
+            end = next(n for n in range(second + 1, len(words)) if tokens[n].mark)
+            if not any(link_at(tokens, n) for n in range(second + 1, end)):
+                return [*tokens[:comma], *tokens[second + 1 : end], *tokens[comma + 1 : second], *tokens[end:]]
     for at in range(1, len(words) - 4):
         size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
         comma = at + 3 + size
@@ -202,7 +199,8 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
             continue
         end = next(n for n in range(comma + 1, len(tokens)) if tokens[n].mark)
         named = tokens[comma + 1 : end]
-        if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
+        plain = (each.text == "of" or not link_at(named, n) for n, each in enumerate(named))
+        if all(plain) and not any(each.text in _FINITE or each.text == "and" for each in named):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
     return list(tokens)
 
@@ -303,26 +301,6 @@ def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
                 size, head = size + 1, head[:-1]
             return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
-    return list(tokens)
-
-
-def _kinds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "three cans: soup, tuna and corn" as "a soup can, a tuna can and a corn can"."""
-    words = [token.text for token in tokens]
-    for colon in (n for n in range(2, len(words)) if words[n] == ":"):
-        count, noun = lexicon.NUMBERS.get(words[colon - 2], 0), tokens[colon - 1]
-        end = next((n for n in range(colon, len(words)) if tokens[n].mark and words[n] not in (",", ":")), len(words))
-        inside = list(tokens[colon + 1 : end])
-        kinds = [token for token in inside if token.text not in (",", "and")]
-        single = next((guess for guess in singulars(noun.text) if nouns.match([guess])), None)
-        if not 2 <= count == len(kinds) or single is None or "and" not in words[end - 2 : end]:
-            continue
-        if all(nouns.match([kind.text, single]) for kind in kinds):
-            article = replace(tokens[colon - 2], text="a")
-            for kind in kinds:
-                at = inside.index(kind)
-                inside[at : at + 1] = [article, kind, replace(noun, text=single)]
-            return [*tokens[: colon - 2], *inside, *tokens[end:]]
     return list(tokens)
 
 
