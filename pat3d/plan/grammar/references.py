@@ -421,8 +421,9 @@ class References(Contrast):
         known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
-            more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
-                           modifiers=words, definite=phrase.definite)  # fmt: skip
+            several = phrase.plural or count > 1 or phrase.words.endswith("ones")
+            more = replace(whole.phrase, words=phrase.words, count=phrase.count,
+                           plural=several, modifiers=words, definite=phrase.definite)  # fmt: skip
             return list(self._maker.make(self._world, more).items)
         picked = ([item for item in free if item in self._world.telling] or free)[:count]
         for item in picked:
