@@ -10,6 +10,7 @@ from pat3d.plan.grammar.lexicon import DEMONSTRATIVES, TELLING
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
+from pat3d.plan.grammar.sizes import too_large
 from pat3d.scene.relations import SUPPORT_KINDS
 
 _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "leans", "has", "holds", "contains"})
@@ -86,6 +87,10 @@ class Judging:
 
     def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
         costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
+        if link.kind == "in" and link.manner == "place" and len(parents) == 1 < len(children):
+            # What is in one thing together is as unlikely as the unlikeliest.
+            large = any(too_large(self._noun(child), self._noun(parents[0])) for child in children)
+            return max(*costs, 1.3 * large)
         return sum(costs) / max(len(costs), 1)
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
