@@ -59,6 +59,10 @@ class Having(Judging):
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
                     cost += 0.7 * self._usually_had(link, self._noun(owners[0]), self._noun(fact[2][0]))
+            elif apart and self._is_pronoun(fact[3]) and self._link(fact[1]).kind in LATERAL_KINDS:
+                # "A cup on a box, with a ball next to them"
+                placed |= set(fact[2])
+                cost += 0.2
             facts.append(fact)
         having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}
         own = having & set(modifier.heads)

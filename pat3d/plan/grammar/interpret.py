@@ -413,7 +413,7 @@ class Interpreter(Placing):
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if phrase is not None and phrase.part in lexicon.DRAWERS | lexicon.DETACHED and phrase.kind == "object":
+        if phrase is not None and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED and phrase.kind == "object":
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:

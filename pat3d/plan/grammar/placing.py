@@ -135,7 +135,8 @@ class Placing:
         carriers = {self._world.support(item) for group in groups for item in group.items}
         groups = [group for group in groups if not carriers & set(group.items)]
         pair = groups[:1] if groups and len(groups[0].items) == 2 else groups[1::-1] if len(groups) > 1 else []
-        neighbours = [item for group in pair for item in group.items]
+        # "Two chairs facing each other with a table in between"
+        neighbours = [item for group in pair for item in group.items] or owners
         if len(neighbours) != 2:
             self._world.note(f'not understood: "{" ".join(self._chunks[at].words)}": between what is not said.')
             return
