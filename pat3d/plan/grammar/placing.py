@@ -91,6 +91,10 @@ class Placing:
             self._alike(children)
             return
         if side in ("both", "ends"):
+            some, whole = self._chunks[heads[0]].named, children[0].group.items
+            if {"each", "either"} & set(chunk.words) and some.kind == "pieces" and 2 * (some.count or 0) == len(whole):
+                # "Six chairs, three on each side"
+                children = list(whole)
             parents = owners or [item for item in implied if item not in children]
             if parents:
                 row = parents if parents[0].group.rows or len({item.group for item in parents}) > 1 else parents[:1]
