@@ -132,7 +132,8 @@ def test_they_who_can_only_be_one_are_named_in_a_note():
                                     "Move everything from the desk to the box."])  # fmt: skip
 def test_what_is_only_done_later_or_with_something_is_not_there_before(prompt: str):
     plan = PLANNER.plan(prompt)
-    assert not plan.relations and plan.notes
+    assert not plan.relations
+    assert plan.notes
 
 
 def test_a_figure_holds_nothing_and_a_note_says_so():

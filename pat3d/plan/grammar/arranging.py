@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from pat3d.plan.grammar import covers, lexicon
@@ -53,6 +54,7 @@ def settle(world: World, prompt: str) -> None:
     world.arranged = [
         each for each in world.arranged if each.kind != "circle" or each.of or {*each.items} not in ringed
     ]
+    world.arranged = [one for each in world.arranged for one in _one_by_one(world, each)]
     for each in world.arranged:
         if each.kind in _LINES:
             # Of stacks in a row the lowest stand in it.
@@ -67,6 +69,13 @@ def settle(world: World, prompt: str) -> None:
             world.note(f"not arranged: {each.otherwise}")
             if each.kind == "under":
                 world.beside(each.items, "next_to", each.of)
+
+
+def _one_by_one(world: World, each: Arranged) -> list[Arranged]:
+    """`each`, or where several lean on furniture, which is wide enough for them, that each of them does."""
+    if each.kind != "leaning_against" or len(each.items) < 2 or not (each.of and world.on_floor(each.of[0])):
+        return [each]
+    return [replace(each, items=[item]) for item in each.items]
 
 
 def in_order(world: World, row: Sequence[Item]) -> None:
@@ -173,7 +182,10 @@ def _holds(world: World, each: Arranged) -> bool:
         edges = [world.supports.get(item) for item in each.items]
         level = world.likely.level(world.noun(each.of[0]))
         return level and all(edge is not None and edge.kind == "on" and edge.parent is each.of[0] for edge in edges)
-    everything = {*each.items, *each.of}
+    stack = each.kind == "leaning_against" and each.of[0].group.height > 1
+    everything = {*each.items, *(world.bases(each.of) if stack else each.of)}
+    if each.kind == "leaning_against" and len(everything) > 2:
+        return False
     supports = {world.support(item) for item in everything}
     kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
     if each.kind == "circle" and len(each.of) > 1 and len(supports) > 1:

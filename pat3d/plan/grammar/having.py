@@ -47,7 +47,9 @@ class Having(Judging):
             if (
                 fact[0] == "rel"
                 and set(fact[2]) <= set(modifier.heads)
-                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
+                and (
+                    self._one_of(fact[3], owners) or self._each_of(fact[3], owners) or self._each_else(fact[3], owners)
+                )
             ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
@@ -58,7 +60,7 @@ class Having(Judging):
                 placed |= set(fact[2])
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
-                    cost += 0.7 * self._usually_had(link, self._noun(owners[0]), self._noun(fact[2][0]))
+                    cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
             elif apart and self._is_pronoun(fact[3]) and self._link(fact[1]).kind in LATERAL_KINDS:
                 # "A cup on a box, with a ball next to them"
                 placed |= set(fact[2])
@@ -110,6 +112,11 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _owner_noun(self, owner: int) -> str:
+        """The noun of `owner`, of "each" that of what is named before it."""
+        nouns = (self._noun(at) for at in range(owner, -1, -1) if self._chunks[at].phrase is not None)
+        return next(filter(None, nouns), "")
 
     def _has_again(self, named: Node, modifier: Node) -> bool:
         """Whether `named` has things "with" it, and behind them more "with" it that is placed nowhere."""
