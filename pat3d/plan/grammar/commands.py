@@ -174,7 +174,8 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if token.text == "leave" and follower in ("everything", "anything") and "else" in told:
             made.append(replace(token, text="avoid"))
             continue
-        if token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the":
+        stowed = token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the"
+        if stowed and tokens[at + 2].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"to"}:
             continue
         sorted_by = "sort" in told and ("into" in [each.text for each in made] or ":" in told)
         if sorted_by and (

@@ -146,12 +146,13 @@ def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
 
 def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "neither of the two boxes is empty" as "there are two boxes", and "neither chair has a cushion" the same."""
-    if words[0] not in _NO:
+    if words[0] not in _NO or len(words) < 4:
         return None
     start = 2 if words[1] == "of" else 1
     stops = (n for n in range(start + 1, len(words)) if tokens[n].mark or words[n] in FINITE or words[n] == "has")
     verb = next(stops)
-    end = next(n for n in range(verb, len(words)) if tokens[n].mark and (words[n] != "," or words[n + 1] == "but"))
+    but = [n for n in range(verb, len(words) - 1) if words[n] == "," and words[n + 1] == "but"]
+    end = next(n for n in range(verb, len(words)) if n in but or (tokens[n].mark and words[n] != ","))
     named = words[start + (words[start] == "the") : verb]
     if not named or not nouns.match(named[-1:]) or "nor" in named or words[start] in ("but", "them", "these", "those"):
         return None
