@@ -67,7 +67,13 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
 
 def _opens(it: Compared, claim: Claim) -> bool:
     """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
-    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+    words = it.said.words
+    if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
+        return True
+    # "On the desk beside the cup lies a pen"
+    before = next((one for one in it.said.claims if one.end == claim.at), None)
+    inverted = words[claim.end : claim.end + 1] and words[claim.end] in FINITE | {"there"}
+    return bool(inverted) and before is not None and _opens(it, before)
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
