@@ -195,11 +195,19 @@ def insides(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in something closed, or taken out of it, and is placed on it."""
     words = it.said.words
     for at, word in enumerate(words):
+<<<<<<< HEAD
         led = {"in", "inside", "into", "from", "out", "within"} & set(words[max(at - 4, 0) : at])
         holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(
             words[at + 1 : at + 5]
         )
         if not {word, *singulars(word)} & CLOSED or not (led or holds):
+=======
+        led = words[max(at - 4, 0) : at]
+        holds = {*words[at + 1 : at + 4]} & {"holds", "hold", "contains", "contain", "full", "filled"}
+        if not {word, *singulars(word)} & CLOSED or (
+            not holds and not {"in", "inside", "into", "from", "out", "within"} & set(led)
+        ):
+>>>>>>> s14-notes
             continue
         of = {obj.name for obj in it.plan.objects if word in (*obj.phrase.lower().split(), *obj.name.split())}
         above = [rel for rel in it.plan.relations if rel.kind == "on" and rel.parent in of]
@@ -259,6 +267,21 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         held |= {name for name in own if it.above(name) and any(name in it.above(obj.name) for obj in it.plan.objects)}
         if own and (late or not held & own) and words[at] not in it.quoted:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
+
+
+def middle_ones(it: Compared) -> Iterator[tuple[int, str]]:
+    """The middle one of three that are told by their sides, which stands between the others."""
+    sides = {side: [one for one in it.said.mentions if side in one.lead] for side in ("left", "middle", "right")}
+    if not all(sides.values()) or len({one.noun for each in sides.values() for one in each}) > 1:
+        return
+    for mention in sides["middle"]:
+        own = {obj.name for obj in it.of(mention)}
+        rows = any(one.kind in ("row", "between") and own & {*one.objects} for one in it.plan.arrangements)
+        between = [
+            obj for obj in it.of(mention) if {k for a, k, _ in it.edges if a == obj.name} >= {"left_of", "right_of"}
+        ]
+        if own and not rows and not between and "middle" not in it.quoted:
+            yield mention.start, f'not arranged: "the middle {mention.text}" between the others'
 
 
 def behind_all(it: Compared) -> Iterator[tuple[int, str]]:
