@@ -22,6 +22,7 @@ from pat3d.plan.grammar.displaced import (
     fronted,
     in_place,
     stateless,
+    which_carries,
 )
 from pat3d.plan.grammar.enumerated import enumerated
 from pat3d.plan.grammar.gapping import ungapped
@@ -77,7 +78,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
+    return of_what(_relatives(by_which(which_carries(_plain_words(tokens, nouns), nouns), nouns), nouns))
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
