@@ -30,6 +30,11 @@ PLANNER = GrammarPlanner()
         ("A bench and on it, behind a vase, a clock.", {"clock on bench", "vase on bench", "clock behind vase"}),
         ("Two crates form a row with a barrel.", {"crate 1 left_of crate 2", "crate 2 left_of barrel"}),
         ("A series of three blue bowls.", set()),
+        ("A tray on the bench with a jug and two mugs on top.",
+         {"tray on bench", "jug on tray", "mug 1 on tray", "mug 2 on tray"}),
+        ("Two crates on the bench with a ball and a book in each.",
+         {"crate 1 on bench", "crate 2 on bench", "ball 1 in crate 1", "ball 2 in crate 2", "book 1 in crate 1",
+          "book 2 in crate 2"}),
         ("A bowl decorated with roses stands on a shelf.", {"bowl on shelf"}),
         ("A shelf decorated with two candles.", {"candle 1 on shelf", "candle 2 on shelf"}),
         ("Shove the crate across the table.", {"crate on table"}),
@@ -67,6 +72,7 @@ def test_of_a_list_whose_last_has_a_place_of_its_own_both_readings_are_told():
         ("Lift the egg out of the box and into the bowl.", {"egg in box"}, "place:egg:bowl"),
         ("Grab the jar off the shelf and onto the bench.", {"jar on shelf"}, "place:jar:bench"),
         ("Take the jar to the shelf.", set(), "place:jar:shelf"),
+        ("Take the jar from the shelf to the bench.", {"jar on shelf"}, "place:jar:bench"),
         ("Put the green book back on the shelf.", set(), "place:green book:shelf"),
         ("Get me the key from the cabinet, then close it.", {"key on cabinet"}, "pick:key"),
     ],
@@ -83,6 +89,9 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
         ("Stack the three crates on the pallet.",
          "the instruction is several tasks, of which the environment has one at a time: place:crate 1:pallet, "
          "stack:crate 2:crate 1, stack:crate 3:crate 2."),
+        ("Stack the three bowls on top of each other.",
+         "the instruction is several tasks, of which the environment has one at a time: stack:bowl 2:bowl 1, "
+         "stack:bowl 3:bowl 2."),
         ("Put the red cube in left crate and the blue cube in right crate.",
          "the instruction is several tasks, of which the environment has one at a time: place:red cube:crate 1, "
          "place:blue cube:crate 2."),

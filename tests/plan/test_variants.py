@@ -2,6 +2,7 @@
 
 import pytest
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 
 
@@ -36,6 +37,13 @@ def planner() -> GrammarPlanner:
         ("The forks go into the drawer.", "Put the forks into the drawer."),
         ("Object A: jar. Object B: mug. B is behind A.", "A mug is behind a jar."),
         ("A tray lies on the desk and carries a mug.", "A tray carries a mug and lies on the desk."),
+        ("Put the fig in bin 1 and the plum in bin 2.", "Put the fig in the first bin and the plum in the second bin."),
+        (
+            "A lamp is on shelf A and a vase is on shelf B.",
+            "A lamp is on the first shelf, a vase is on the second shelf.",
+        ),
+        ("A stack of four cubes in the colors of the rainbow.", "A stack of four rainbow cubes."),
+        ("Three trays carried three mugs.", "Three trays carry three mugs."),
         ("Salt and pepper next to a plate.", "A salt shaker and a pepper shaker next to a plate."),
         ("Open the cabinet and pick up the bowl in there.", "Open the cabinet and pick up the bowl in it."),
     ],
@@ -56,6 +64,9 @@ def test_both_give_one_scene(planner: GrammarPlanner, sentence: str, same: str):
         ("A cut in half lemon lies on a plate.", "cut-in-half"),
         ("Three mugs stand on the tray at random locations.", "at random locations"),
         ("Two lanterns glimmered behind one vase.", "glimmered"),
+        ("Four mugs stand in a curved line on a desk.", "curved"),
+        ("Three wine glasses hang upside down from a wine rack.", "upside down"),
+        ("Close the crate's lid.", "lid"),
         ("A ladder taller than the shelf next to it.", "taller than"),
         ("A notebook with a name printed on it.", "with a name printed on it"),
         ("Two red bricks stand parallel to each other with a gap between them.", "with a gap between them"),
@@ -83,3 +94,17 @@ def test_what_has_to_be_before_is_there_and_noted(planner: GrammarPlanner, sente
     plan = planner.plan(sentence)
     assert any(noted in note for note in plan.notes), plan.notes
     assert plan.task == task
+
+
+@pytest.mark.parametrize(
+    ("sentence", "words"),
+    [
+        ("A sewing contraption stands on a desk.", '"sewing contraption"'),
+        ("A mug stands on a stand.", '"stand" is not in the catalogue'),
+        ("A tower of four mugs, the second yellow.", '"yellow" .* is a colour'),
+        ("Move the door to the left.", '"door"'),
+    ],
+)
+def test_a_refusal_names_the_words_at_fault(planner: GrammarPlanner, sentence: str, words: str):
+    with pytest.raises(PromptError, match=words):
+        planner.plan(sentence)

@@ -10,7 +10,7 @@ from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.identity import confused
+from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.once import told_once
@@ -137,6 +137,7 @@ def _shapes(it: Compared) -> frozenset[str]:
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
+        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
         | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())
@@ -243,9 +244,15 @@ class _Auditor(Compared):
             least = sum(mention.number or 1 for mention in mentions if mention.new)
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
-            known = [mention for mention, before in zip(mentions, leads, strict=True)
-                     if mention.new or mention.end in placed or mention.lead not in before
-                     or not _named_so(mention, mentions[: mentions.index(mention)])]  # fmt: skip
+            known = [
+                mention
+                for at, (mention, before) in enumerate(zip(mentions, leads, strict=True))
+                if mention.new
+                or mention.end in placed
+                or mention.lead not in before
+                or side_of(self, mention)
+                or not _named_so(mention, mentions[:at])
+            ]
             bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
             listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
             least = max(least, listed if listed > 1 else 0)

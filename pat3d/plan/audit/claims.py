@@ -24,7 +24,7 @@ def broken(it: Compared, claim: Claim) -> str | None:
     upset = any(a in turned and b in of and kind == "on" for a, kind, b in it.edges)
     if (claim.place == "above" and upset) or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
-    whose = whose_of(it, claim)
+    whose = set() if fronted(it, claim) else whose_of(it, claim)
     if whose and not all(
         _holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])
     ):
@@ -75,6 +75,14 @@ def _opens(it: Compared, claim: Claim) -> bool:
     # "On the desk next to the laptop is a mug"
     ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
     return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
+
+
+def fronted(it: Compared, claim: Claim) -> bool:
+    """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
+    return any(
+        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        for one in it.said.claims
+    )
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from pat3d.plan.audit.claims import whose_of
+from pat3d.plan.audit.claims import fronted, whose_of
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
@@ -155,6 +155,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         subjects, _ = said_of(it, claim)
         if subjects and claim.of is not None and claim.place not in ("with", "holding"):
             above = _names(it, subjects)
+        if fronted(it, claim):
+            above = _names(it, [mention for mention in it.said.mentions if mention.start >= claim.end])
         if claim.place in ("with", "holding", "under") and child in below and parent in above:
             return True
         if parent in below and child in _names(it, _added(it, claim)):

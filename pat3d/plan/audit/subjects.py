@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from pat3d.assets.colours import find_colour
+from pat3d.plan.audit.claims import fronted
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, HAS, POSED, PRONOUNS, SILENT
@@ -33,6 +34,8 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
     if not asked and (note := _of_something_else(it, claim)):
         return note
     if asked or claim.place not in _CHECKED or claim.whose or it.excused(claim):
+        return None
+    if fronted(it, claim):
         return None
     back = claim.of is None
     if back and it.said.words[claim.end - 1] not in BACKWARD:

@@ -26,7 +26,7 @@ _SURROUNDING = frozenset({
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
     whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
-    return _of_each(_equal(_shares(_on_sides(whole), nouns), nouns), nouns)
+    return _of_each(_equal(_multiples(_shares(_on_sides(whole), nouns), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -301,6 +301,34 @@ def _any_of(tokens: Sequence[Token]) -> list[Token]:
         if token.text == "any" and made[at + 1].text == "of":
             made[at] = replace(token, text="one")
     return made
+
+
+def _multiples(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "two cups and twice as many jars" as "two cups and four jars", and "... forks as plates" counted.
+
+    Half of what is odd is no number, and is left as it is said.
+    """
+    words = [token.text for token in tokens]
+    at = next((n for n in range(1, len(words) - 2) if words[n : n + 2] == ["as", "many"]), 0)
+    if not at or words[at - 1] not in ("half", "twice", "times"):
+        return list(tokens)
+    first = at - (2 if words[at - 1] == "times" else 1)
+    factor = {"half": 0.5, "twice": 2.0}.get(words[at - 1], float(_value(words[first])))
+    end = next((n for n in range(at + 3, min(at + 6, len(words))) if words[n] == "as"), 0)
+    if end and not any((found := nouns.match([word])) and found.plural for word in words[end + 1 : end + 4]):
+        return list(tokens)
+    before = end + 1 + (words[end + 1] in ("the", "there")) if end else next(
+        (n for n in range(first - 1, -1, -1) if _value(words[n])), 0)  # fmt: skip
+    number = _value(words[before]) or (1 if words[before] in ("a", "an", "one") else 0)
+    told = number or (lexicon.BARE_PLURAL + 1 if end else 0)
+    if not factor or told * factor != int(told * factor):
+        return list(tokens)
+    amount = replace(tokens[first], text="one" if told * factor == 1 else str(int(told * factor)))
+    if not end:
+        return [*tokens[:first], amount, *tokens[at + 2 :]]
+    joint, base = replace(tokens[end], text="and"), replace(tokens[end], text=str(told))
+    counted = [base] if not number else []
+    return [*tokens[:first], amount, *tokens[at + 2 : end], joint, *counted, *tokens[end + 1 :]]
 
 
 def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -60,7 +60,8 @@ def _in_full(tokens: Sequence[Token]) -> Sequence[Token]:
     words = [token.text for token in tokens]
     base = base_verb(words[0]) if words[0].endswith("ing") else None
     leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
-    if base in _DOING and words[1] in leads and not set(words) & (lexicon.COPULAS | {","}):
+    finite = any(word in lexicon.COPULAS and words[at - 1] not in ("that", "which") for at, word in enumerate(words))
+    if base in _DOING and words[1] in leads and not finite and "," not in words:
         return [replace(tokens[0], text=base), *tokens[1:]]
     made: list[Token] = []
     for at, token in enumerate(tokens):
@@ -209,6 +210,9 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
         if token.text == "first" and before == ":" and follower in lexicon.DETERMINERS:
             # "First the bottles, then the tins."
+            continue
+        if token.text == "leave" and follower in ("everything", "anything") and "else" in told:
+            made.append(replace(token, text="avoid"))
             continue
         if token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the":
             continue

@@ -348,7 +348,8 @@ class Cutter(Asides):
         """Read "the dog's head": the part places nothing, its owner has been read."""
         read = self._phrases.read(self._at + 1)
         self._at += 1
-        if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
+        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in lexicon.ON_RIMS)
+        if read is not None and part and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
                 self._made.unread.append(read[0].words)
             self._at = read[1]

@@ -11,6 +11,9 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 _USUAL = 0.34
 """Cost of having something below which one thinks of it as on or in its owner."""
 
+_AT_HOME = 0.35
+"""Cost of what something has below which that is where people keep it."""
+
 
 class Having(Judging):
     """The rule for what an object has."""
@@ -47,7 +50,9 @@ class Having(Judging):
             if (
                 fact[0] == "rel"
                 and set(fact[2]) <= set(modifier.heads)
-                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
+                and (
+                    self._one_of(fact[3], owners) or self._each_of(fact[3], owners) or self._each_else(fact[3], owners)
+                )
             ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
@@ -55,10 +60,14 @@ class Having(Judging):
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
+                lone = len(fact[2]) == 1 or self._link(fact[1]).kind in SUPPORT_KINDS
+                if not lone and self._likely.having(link, self._noun(owners[0]), self._noun(fact[2][0])) < _AT_HOME:
+                    # "A plate with a bun and a cup beside it": the bun is on the plate.
+                    cost += 0.7
                 placed |= set(fact[2])
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
-                    cost += 0.7 * self._usually_had(link, self._noun(owners[0]), self._noun(fact[2][0]))
+                    cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
             facts.append(fact)
         having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}
         own = having & set(modifier.heads)
@@ -106,6 +115,11 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _owner_noun(self, owner: int) -> str:
+        """The noun of `owner`, of "each" that of what is named before it."""
+        nouns = (self._noun(at) for at in range(owner, -1, -1) if self._chunks[at].phrase is not None)
+        return next(filter(None, nouns), "")
 
     def _has_again(self, named: Node, modifier: Node) -> bool:
         """Whether `named` has things "with" it, and behind them more "with" it that is placed nowhere."""

@@ -6,6 +6,7 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -66,6 +67,8 @@ _ASKING = (
 )  # fmt: skip
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
+_ELSEWHERE = re.compile(r"\b(?:on|onto|in|into|at|from)\b (?!(?:top of )?(?:each|one|another)|an? )|,", re.IGNORECASE)
+"""Words by which a stack is said to stand somewhere, or more is said of it."""
 SHUTTING = frozenset({"open", "close", "shut"})
 """Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
@@ -381,6 +384,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         goal = world.tops(step.goal)[-1]
     if step.manner == "stack" and goal is None and len(items) == 2:
         return [f"stack:{names[items[0]]}:{names[items[1]]}"]
+    if step.manner == "stack" and step.link is None and _ELSEWHERE.search(step.said) is None:
+        return _tower(items, names)
     if goal is None or step.link is None:
         return []
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
@@ -395,12 +400,16 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"
     moved = [item for item in items if item is not goal and world.support(item) is not goal]
-    if step.manner == "stack" and step.link.kind == "on":
+    if step.manner == "stack":
         # "Stack the three cubes on the tray": the second on the first.
-        upper = [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(moved)]
-        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + upper
+        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + _tower(moved, names)
     alike = [item for item in step.goal if item in names and item.group is goal.group]
     # "Put the two cups on the two plates": one on each.
     goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
     pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
     return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
+
+
+def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:
+    """The tasks by which each of `items` comes to stand on the one before it."""
+    return [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(items)]

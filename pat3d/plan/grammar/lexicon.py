@@ -160,6 +160,9 @@ PLURAL_ONLY = frozenset({"scissors", "glasses", "sunglasses", "eyeglasses", "pli
     "pants", "jeans", "shorts", "trousers", "binoculars", "goggles", "clippers", "pajamas", "shears"})  # fmt: skip
 """One object with a plural name; "a pair of" them is one."""
 
+BUNCHES = frozenset({"grapes", "flowers", "bread", "toast", "cheese", "lettuce", "broccoli", "celery", "garlic"})
+"""Names of one object that are said of an amount: "some grapes" are a bunch, "some bread" is a loaf."""
+
 GENERICS: dict[str, tuple[str, ...]] = {
     "fruit": ("apple", "orange", "banana", "lemon", "pear"),
     "vegetable": ("carrot", "tomato", "pepper", "potato", "onion"),
@@ -330,7 +333,7 @@ PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
     "jam": "jam jar", "shampoo": "shampoo", "trash": "trash can", "garbage": "trash can", "rubbish": "trash can",
-    "tap": "faucet",
+    "tap": "faucet", "pad": "mat",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {
@@ -406,6 +409,14 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
     "filled empty", "used unused", "folded unfolded", "sharp blunt", "smooth rough", "opened closed", "hot iced",
 ))  # fmt: skip
 """Looks of which a thing has one."""
+PARTS_OF: dict[str, tuple[str, ...]] = {
+    "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
+    "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
+    "keyboard": ("laptop",), "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
+    "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
+    "stand": ("globe", "monitor"),
+}  # fmt: skip
+"""What the things after it have as a part, though there are things of that name too."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,

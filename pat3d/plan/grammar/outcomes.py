@@ -8,7 +8,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon, postures
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.links import LINKS
+from pat3d.plan.grammar.links import LINKS, Link
 from pat3d.plan.grammar.measures import is_measure
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
@@ -58,18 +58,16 @@ def together(tokens: Sequence[Token]) -> Sequence[Token]:
 def brought(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "take the egg out of the pot and onto the plate" as "move the egg ...": it ends on the plate."""
     words = [token.text for token in tokens]
-    if words[0] == "take" and words[1] in (*lexicon.DETERMINERS, "it", "them"):
+    if words[0] in ("take", "lift", "remove") and words[1] in (*lexicon.DETERMINERS, "it", "them"):
         # "Take the cup to the table"
         end = next(n for n in range(len(words)) if tokens[n].mark or words[n] == "and")
-        links = [n for n in range(2, end) if link_at(tokens, n)]
-        if links and _leads_to(tokens, links[0]):
+        links = [link for n in range(2, end) if (link := _link(tokens, n)) is not None]
+        if [link.manner for link in links if link.manner in ("source", "goal")][-1:] == ["goal"]:
             return [replace(tokens[0], text="move"), *tokens[1:]]
     for joint in (n for n in range(3, len(words) - 2) if words[n] in ("and", "then") and _leads_to(tokens, n + 1)):
         begin = max((n for n in range(joint) if words[n] in TAKING), default=-1)
-        from_there = any(
-            (link := LINKS.get(tuple(words[n : n + link_at(tokens, n)]))) is not None and link.manner == "source"
-            for n in range(begin + 1, joint)
-        )
+        between = (_link(tokens, n) for n in range(begin + 1, joint))
+        from_there = any(link is not None and link.manner == "source" for link in between)
         if begin >= 0 and from_there:
             body = [token for token in tokens[begin + 1 : joint] if token.text != "up"]
             return [*tokens[:begin], replace(tokens[begin], text="move"), *body, *tokens[joint:]]
@@ -77,8 +75,12 @@ def brought(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _leads_to(tokens: Sequence[Token], at: int) -> bool:
-    link = LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
+    link = _link(tokens, at)
     return link is not None and link.manner == "goal"
+
+
+def _link(tokens: Sequence[Token], at: int) -> Link | None:
+    return LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
 
 
 def with_articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -32,6 +32,7 @@ from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
 from pat3d.plan.grammar.outcomes import with_articles
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
+from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
@@ -82,7 +83,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = enumerated(text, of_things(from_below(tokens, nouns), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
     tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
     tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)

@@ -139,7 +139,9 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
-        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+        whole = phrase.kind == "object" and bool(phrase.noun) and not phrase.plural
+        if flags.get("vague") and whole and (phrase.said in lexicon.PLURAL_ONLY or phrase.said in lexicon.BUNCHES):
+            # "Some scissors" are one, and "a few grapes" one bunch.
             count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
@@ -279,6 +281,10 @@ class PhraseReader:
         if any(word in lexicon.SUBSTANCES for word in singular):
             return replace(base, kind="background", substance=head)
         if any(word in lexicon.PARTS for word in singular):
+            whole = self._nouns.match(words[:-1]) if len(words) > 2 and self._definite else None
+            if whole is not None:
+                # "the stand mixer head"
+                return replace(base, kind="object", noun=whole.noun, said=whole.said, part=head)
             return replace(base, kind="part", said=singular[-1])
         stuff = words in _STUFF and count is None and not self._definite
         if all(is_modifier(word) for word in words) and not stuff:

@@ -77,7 +77,7 @@ class Placing:
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
-            elif not parents and chunk.link.kind == "in" and (inner := self._just_named(at, children)):
+            elif not parents and self._holds_list(chunk, children[0]) and (inner := self._just_named(at, children)):
                 # "a microwave on a counter with a bowl inside"
                 self._relating.relate(inner, chunk.link, children)
             elif not parents:
@@ -196,6 +196,11 @@ class Placing:
                 and within(item) < _HARDLY_IN)
         )]  # fmt: skip
         return fit[-1:] or meant
+
+    def _holds_list(self, chunk: Chunk, holder: Item) -> bool:
+        """Whether `holder` with a list and `chunk` behind it has that list there: what is on top of fruit is in it."""
+        hollow = self._world.likely.hollow(self._world.noun(holder))
+        return chunk.text == "inside" or (chunk.text == "on top" and not hollow)
 
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
         """What stands right before chunk `at`, with the list that something has and that it ends; none of `besides`."""

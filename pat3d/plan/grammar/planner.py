@@ -26,6 +26,7 @@ from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
 from pat3d.plan.grammar.names import catalogue_names
+from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.paraphrase import plainer
 from pat3d.plan.grammar.phrases import Phrase
@@ -99,7 +100,7 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
         _check_language(text)
-        tokens = worked_out(chessmen(tokenise(text)), self._nouns)
+        tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)

@@ -166,7 +166,7 @@ class Pronouns:
                 f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
             )
         pair = best[1][0].group
-        one = len(best[1]) == 1 and pair.height == 1 and not pair.phrase.plural
+        one = len(best[1]) == 1 and pair.height == 1 and not (pair.phrase.plural or pair.phrase.each)
         if plural and one and pair.said not in lexicon.PLURAL_ONLY:
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}", which is one.')
         if not which and rival is not None and rival[0] - best[0] < _CLOSE and not set(rival[1]) & set(best[1]):

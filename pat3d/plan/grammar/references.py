@@ -283,7 +283,7 @@ class References(Contrast):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
-        if where in ("left", "right") and phrase.words.split()[-1] == "one":
+        if where in ("left", "right") and "one" in phrase.words.lower().split():
             # "The left tray carries three muffins, the right one a knife": another tray.
             beside = [group for group in groups if len(group.items) == 1 and group.items[0].place == OPPOSITE[where]]
             if beside:
@@ -420,7 +420,10 @@ class References(Contrast):
             for head in fact[3]:
                 phrase = made[head].phrase
                 words = {phrase.head, *singulars(phrase.head)} if phrase is not None else set()
-                if phrase is not None and storage and phrase.kind == "object" and words & lexicon.STORAGE_PARTS:
+                part_of = [lexicon.PARTS_OF[word] for word in words & lexicon.PARTS_OF.keys()]
+                own = any(self._world.likely.is_a(owner.noun, *part_of) for owner in owners if owner and part_of)
+                stored = storage and bool(words & lexicon.STORAGE_PARTS)
+                if phrase is not None and phrase.kind == "object" and (stored or own):
                     part = replace(phrase, kind="part", said=phrase.head, noun="")
                     made[head] = replace(made[head], phrase=part)
         self._chunks = made

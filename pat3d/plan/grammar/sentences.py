@@ -93,7 +93,7 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
         words = [token.text for token in sentence]
         comma = words.index(",") if "," in words else 0
         after = comma + 1 + (words[comma + 1 : comma + 2] in (["then"], ["please"]))
-        asked = comma > 3 and base_verb(words[after]) == words[after] and words[after] not in FINITE
+        asked = comma > 3 and base_verb(words[after]) == words[after]
         opens = words[0] in CONDITIONS and (words[1] in lexicon.DETERMINERS or words[1] == "there")
         if opens and asked and set(words[1:comma]) & FINITE:
             made += [[*sentence[:comma], replace(sentence[comma], text=".")], list(sentence[after:])]

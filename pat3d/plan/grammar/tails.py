@@ -89,9 +89,9 @@ class Tails(Remarks):
             return []
         made = [
             (start, end)
-            for end in range(fault + 1, min(fault + 5, len(self._words)))
-            for start in range(max(1, fault - 4), fault + 1)
-            if self._is_loose(start, end)
+            for end in range(fault, min(fault + 6, len(self._words)))
+            for start in range(max(1, fault - 4), fault + 2)
+            if start < end and self._is_loose(start, end)
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
         return [span for span in made if self._says_nothing(*span)][:_TRIED]
@@ -103,6 +103,12 @@ class Tails(Remarks):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
             return False
+        if words in (["in", "the", "row"], ["in", "the", "line"]):
+            return self._behind_noun(start)
+        if len(words) == 1 and is_marked(words[0]):
+            return before in ("hang", "hangs", "hanging", "hung")
+        if len(words) == 1 and after in lexicon.ROWS and before in ("a", "one", "two", "three"):
+            return looks_like_adjective(words[0])
         if len(words) > 1:
             head = {words[-1], *singulars(words[-1])}
             how = is_quality(words[-1]) and not head & (lexicon.PARTS | _MARKED)
@@ -272,7 +278,7 @@ class Tails(Remarks):
         plain = word.isdecimal() or word == "'s" or is_marked(word) or is_modifier(word) or word in JOINERS
         if plain or makes_nothing(word) or word in lexicon.VAGUE:
             return True
-        general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES
+        general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES | lexicon.ROWS
         if any(form in general for form in forms) or link_at(self._tokens, at):
             return True
         # What goes before another noun describes it.

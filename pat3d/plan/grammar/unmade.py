@@ -159,6 +159,7 @@ _LITTLE = _words("""
     straight such sure than thank thanks that their them themselves then there thereby therefore these they this
     those though through throughout thus till to together too toward towards true twice until up upon upwards us
     usual various very via we well what whatever when whenever where whereas whereby wherein wherever whether while
+    outward outwards inward inwards downward downwards upward everywhere sideways
     whilst who whole whom whose why will with within without would yet you your
 """)  # fmt: skip
 """Words that build a sentence, beside those of the other tables."""

@@ -44,6 +44,12 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     **{(*seen, "find"): ("there", "are") for seen in (("you", "can"), ("one", "can"), ("you", "will"), ("you",))},
 }
 """What is said, and the words instead."""
+_RAINBOWS = tuple(
+    tuple(said.split())
+    for colours in _COLOURS
+    for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
+                 f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
+)  # fmt: skip
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
 _SEERS = frozenset({"i", "we", "you", "one"})
 _MADE = frozenset({"made", "crafted", "built", "constructed", "carved", "formed", "fashioned"})
@@ -55,7 +61,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    tokens = _compared(_plain(_unpictured(tokens)), nouns)
+    tokens = _compared(_rainbow(_plain(_unpictured(tokens)), nouns), nouns)
     return _made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
 
 
@@ -73,14 +79,27 @@ def _unpictured(tokens: Sequence[Token]) -> Sequence[Token]:
     return tokens
 
 
+def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "five blocks in the colors of the rainbow" as "five rainbow blocks"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 2):
+        size = next((len(said) for said in _RAINBOWS if tuple(words[at : at + len(said)]) == said), 0)
+        name = next((n for n in (3, 2, 1) if size and n < at and nouns.match(words[at - n : at])), 0)
+        if name:
+            colour = replace(tokens[at], text="rainbow", end=tokens[at + size - 1].end)
+            return [*tokens[: at - name], colour, *tokens[at - name : at], *tokens[at + size :]]
+    return tokens
+
+
 def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a box taller than the jar next to it" as "a box that is taller than the jar next to it"."""
     made: list[Token] = []
     for at, token in enumerate(tokens):
-        before, follower = tokens[at - 1].text if at else "", tokens[min(at + 1, len(tokens) - 1)].text
-        higher = token.text in lexicon.SUPERLATIVES and not token.text.endswith("est")
-        if higher and follower == "than" and nouns.match([before]) and tokens[at + 2].text in lexicon.DETERMINERS:
-            made += [replace(token, text="that"), replace(token, text="is")]
+        higher = token.text in lexicon.SUPERLATIVES and not token.text.endswith("est") and tokens[at + 1].text == "than"
+        set_off = bool(made) and made[-1].text == ","
+        before = made[-1 - set_off].text if len(made) > set_off else ""
+        if higher and nouns.match([before]) and tokens[at + 2].text in lexicon.DETERMINERS:
+            made = [*made[: len(made) - set_off], replace(token, text="that"), replace(token, text="is")]
         made.append(token)
     return made
 
