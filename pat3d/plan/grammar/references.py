@@ -151,7 +151,7 @@ class References(Contrast):
         """The other cups of which one or some were told apart: "one of three cups ..., the other two cups"."""
         for group in (group for group in reversed(self._world.groups) if same_noun(group, phrase)):
             untold = [item for item in self._world.telling if item in group.items]
-            if group.phrase.one_of:
+            if group.phrase.some == 1:
                 untold = group.items[1:]
             elif group.phrase.superlative != NO_MODIFIERS:
                 untold = [item for item in group.items if not (item.place or item.told.size_word)]
