@@ -72,7 +72,6 @@ def _opens(it: Compared, claim: Claim) -> bool:
     words = it.said.words
     if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
         return True
-<<<<<<< HEAD
     # "On the desk next to the laptop is a mug"
     ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
     return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
@@ -84,12 +83,6 @@ def fronted(it: Compared, claim: Claim) -> bool:
         one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
         for one in it.said.claims
     )
-=======
-    # "On the desk beside the cup lies a pen"
-    before = next((one for one in it.said.claims if one.end == claim.at), None)
-    inverted = words[claim.end : claim.end + 1] and words[claim.end] in FINITE | {"there"}
-    return bool(inverted) and before is not None and _opens(it, before)
->>>>>>> s14-notes
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:

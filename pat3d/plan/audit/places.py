@@ -195,19 +195,11 @@ def insides(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in something closed, or taken out of it, and is placed on it."""
     words = it.said.words
     for at, word in enumerate(words):
-<<<<<<< HEAD
         led = {"in", "inside", "into", "from", "out", "within"} & set(words[max(at - 4, 0) : at])
         holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(
             words[at + 1 : at + 5]
         )
         if not {word, *singulars(word)} & CLOSED or not (led or holds):
-=======
-        led = words[max(at - 4, 0) : at]
-        holds = {*words[at + 1 : at + 4]} & {"holds", "hold", "contains", "contain", "full", "filled"}
-        if not {word, *singulars(word)} & CLOSED or (
-            not holds and not {"in", "inside", "into", "from", "out", "within"} & set(led)
-        ):
->>>>>>> s14-notes
             continue
         of = {obj.name for obj in it.plan.objects if word in (*obj.phrase.lower().split(), *obj.name.split())}
         above = [rel for rel in it.plan.relations if rel.kind == "on" and rel.parent in of]
