@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.judging import HEADLESS, Judging
 from pat3d.plan.grammar.lexicon import DISHES, SLENDER
@@ -61,7 +62,9 @@ class Having(Judging):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
                 lone = len(fact[2]) == 1 or self._link(fact[1]).kind in SUPPORT_KINDS
-                if not lone and self._likely.having(link, self._noun(owners[0]), self._noun(fact[2][0])) < _AT_HOME:
+                owner, first = self._noun(owners[0]), self._noun(fact[2][0])
+                laid = self._likely.is_a(first, lexicon.SLENDER) and self._likely.is_a(owner, lexicon.DISHES)
+                if not (lone or laid) and self._likely.having(link, owner, first) < _AT_HOME:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
                     cost += 0.7
                 placed |= set(fact[2])

@@ -65,6 +65,8 @@ _MANY_COLOURED = frozenset(
         "multicolored",
         "multicoloured",
         "different",
+        "matching",
+        "identical",
         "differently",
         "colored",
         "coloured",
