@@ -8,6 +8,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.relation_words import RelationWords
 from pat3d.plan.grammar.shapes import refuse, shape_said
+from pat3d.plan.grammar.unmade import base_verb
 
 ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
 
@@ -28,6 +29,11 @@ class Asides(RelationWords):
             self._at += 1
             return True
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            return self._leave(read[1] - self._at)
+        done = self._word(-1)
+        agent = word == "by" and base_verb(done) is not None and self._word(-2) in ("be", "being")
+        if agent and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            # "Washed by the dishwasher" places nothing beside it.
             return self._leave(read[1] - self._at)
         after_noun = self._last is not None and self._last.kind == "noun"
         if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):

@@ -352,6 +352,10 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
+    if not specs:
+        # "Grasp the block, then turn it": of the two, the first is a task.
+        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
+        specs = next((made for made in picks if made), [])
     if len(specs) > 1:
         listed = ", ".join(specs)
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")

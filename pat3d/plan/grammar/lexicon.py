@@ -313,6 +313,8 @@ SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture",
 """Parts that every object has: to name them says nothing."""
 DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob", "drawers", "doors", "shelf", "button"})
 """Parts with a name that is a thing's too: "the lid of the box" is the box."""
+FITTED = frozenset({"rack", "racks", "tray", "seat", "basket"})
+"""Parts of furniture and appliances that are also things of their own."""
 VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
     "clockwise", "counterclockwise", "sideways"})  # fmt: skip

@@ -61,7 +61,7 @@ def together(tokens: Sequence[Token]) -> Sequence[Token]:
 def closed(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "cover the cup with the plate" as "put the plate over the cup"; "close" is as much as "cover"."""
     words = [token.text for token in tokens]
-    leads = lexicon.DETERMINERS | lexicon.POSSESSIVES
+    leads = {"the", "this", "that"} | lexicon.POSSESSIVES
     for at in (n for n in range(len(words) - 5) if words[n] in _CLOSING and words[n + 1] in leads | {"it"}):
         end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or words[n] in ("and", "then"))
         joint = next((n for n in range(at + 2, end - 1) if words[n] == "with" and words[n + 1] in leads), 0)
