@@ -12,7 +12,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import LINKS
-from pat3d.plan.grammar.outcomes import TAKING, brought, put_back, together
+from pat3d.plan.grammar.outcomes import TAKING, brought, closed, put_back, together
 from pat3d.plan.grammar.unmade import base_verb
 from pat3d.scene.relations import SUPPORT_KINDS
 
@@ -34,7 +34,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _swapped(brought(put_back(together(_in_full(tokens)))))
+    told = _swapped(brought(put_back(together(closed(_in_full(tokens))))))
     return _handed(_further(_fronted(_sideways(_ordered(_told_once(_lined_up(told)))))))
 
 

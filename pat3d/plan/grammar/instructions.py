@@ -380,7 +380,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "unload":
         edges = [(item, world.supports.get(item)) for item in step.items[:1]]
         # "unload the cups from the crate" is about the crate.
-        holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
+        taken = bool({"from", "off", "out"} & set(step.said.lower().split()))
+        holders = [edge.parent if edge and (taken or edge.kind == "in") else item for item, edge in edges]
         likely = world.likely
         holders = [item for item in holders if likely.hollow(world.noun(item)) or likely.closet(world.noun(item))]
         return [f"unload:{names[item]}" for item in holders if item in names]
@@ -402,7 +403,11 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
     fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
     nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
-    if not fits or nearer or step.link.kind == "hangs_from":
+    over = step.link.said == "over" and not all(world.is_a(item, lexicon.THIN) for item in items)
+    across = step.link.says == "across" and world.likely.hollow(world.noun(goal))
+    several = step.link.manner == "place" and goal.group.height == 1 and len(items) == 1 < len(step.goal)
+    if not fits or nearer or over or across or several or step.link.kind == "hangs_from":
+        # A spoon across a bowl and a plank on two blocks are nowhere asked for; a bowl over a ball is around it.
         return []
     noun = world.noun(goal)
     if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):
