@@ -92,8 +92,10 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         if not _commands(made, at) or made[at].text not in _TAKING | _UNLOADING:
             continue
         end = _end(made, at)
-        goal = next((n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS
-                     and _leads(made, n + link_at(made, n))), 0)  # fmt: skip
+        # "Take the cup next to the plate": "to" is no goal there.
+        inside = {n + k for n in range(at + 2, end) for k in range(1, link_at(made, n))}
+        goals = (n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS)
+        goal = next((n for n in goals if n not in inside and _leads(made, n + link_at(made, n))), 0)
         verb, joined = made[at].text, made[goal - 1].text == "and"
         source = any(made[n].text == "from" for n in range(at, goal))
         if not goal or (verb == "pick" and not joined) or (verb in _UNLOADING and (verb == "empty" or not source)):
