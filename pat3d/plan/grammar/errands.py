@@ -21,7 +21,15 @@ _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "s
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
                     ("back", "into")})  # fmt: skip
 _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "next", "behind", "near"})
-_AFTER = (("and", "then"), (",", "then"), (",", "and", "then"), ("and", "also"), (",", "and", "also"), ("then",))
+_AFTER = (
+    ("and", "then"),
+    (",", "then"),
+    (",", "and", "then"),
+    ("and", "also"),
+    (",", "and", "also"),
+    ("then",),
+    ("as", "well", "as"),
+)
 _ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
                ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
 _ONES = frozenset({"one", "ones", "other", "others", "second", "first", "third", "last", "rest"})
@@ -40,7 +48,7 @@ def errands(tokens: Sequence[Token]) -> list[Token]:
     made = _belonging(_owed(list(tokens)))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _once_more(_once_again(_carried(_emptied(_put_back(_one_by_one(made))))))
+    return _once_more(_once_again(_added(_carried(_emptied(_put_back(_one_by_one(made)))))))
 
 
 def _commands(tokens: Sequence[Token], at: int) -> bool:
@@ -124,6 +132,20 @@ def _emptied(tokens: Sequence[Token]) -> list[Token]:
 
 def _leads(tokens: Sequence[Token], at: int) -> bool:
     return tokens[at].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
+
+
+def _added(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "put the cup on the tray and the bowl too" as "... and also the bowl"."""
+    words = [token.text for token in tokens]
+    for at in range(4, len(words) - 1):
+        size = 1 if words[at] == "too" else 2 if words[at : at + 2] == ["as", "well"] else 0
+        if not size or not tokens[at + size].mark or "and" not in words[:at]:
+            continue
+        joint = at - 1 - words[:at][::-1].index("and")
+        if _leads(tokens, joint + 1) and not any(link_at(tokens, n) for n in range(joint + 1, at)):
+            also = replace(tokens[joint], text="also")
+            return [*tokens[: joint + 1], also, *tokens[joint + 1 : at], *tokens[at + size :]]
+    return list(tokens)
 
 
 def _once_again(tokens: Sequence[Token]) -> list[Token]:
