@@ -142,6 +142,18 @@ def _behind(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     return made, len(made) == 1
 
 
+def row_of(it: Compared, last: Mention, further: frozenset[str] = frozenset()) -> list[Mention]:
+    """`last` and every name before it that commas, "and" and words of `further` join to it, whatever leads to them."""
+    made = [last]
+    for mention in reversed([each for each in it.said.mentions if each.end <= last.first]):
+        between = it.said.words[mention.end : made[0].first]
+        between = between[2:] if between[:1] == ["of"] else between
+        if not between or not set(between) <= _JOINTS | further:
+            break
+        made.insert(0, mention)
+    return made
+
+
 def listed(it: Compared, last: Mention) -> list[Mention]:
     """`last`, and what commas and "and" join to it, nearest last; of what something has, what has it."""
     made = [last]

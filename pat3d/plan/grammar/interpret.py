@@ -99,6 +99,8 @@ class Interpreter(Placing):
                 self._qualified(fact[2], self._chunks[fact[1]].modifiers)
             elif fact[0] == "goal":
                 self._aimed(fact[1], fact[2], fact[3])
+        if self._clause.manner is not None:
+            self._note_goal(facts)
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
         told = {at for fact in facts if fact[0] in ("list", "include") for at in fact[3]}
@@ -123,6 +125,17 @@ class Interpreter(Placing):
             self._relating.cost += self._loose()
         self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _note_goal(self, facts: Sequence[tuple]) -> None:
+        """Say that "on the tray to the left of the bowl" is read as the tray's place, not the goal's."""
+        goals = {head for fact in facts if fact[0] == "goal" and self._chunks[fact[1]].relation.kind == "on"
+                 for head in fact[3]}  # fmt: skip
+        for fact in facts:
+            link = self._chunks[fact[1]].link if fact[0] == "rel" else None
+            aside = link is not None and link.manner == "place" and link.kind in LATERAL_SIDES.values()
+            if aside and set(fact[2]) <= goals and not any(map(self._world.on_floor, self._said.ref_all(fact[3]))):
+                of, place = (" ".join(self._chunks[at].text for at in ats) for ats in (fact[2], (fact[1], *fact[3])))
+                self._world.note(f'"{place}" is read as said of "{of}", not of where on it.')
 
     def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
         """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
@@ -327,6 +340,9 @@ class Interpreter(Placing):
         parents = [] if later else self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
+        floor = {self._chunks[head].named.head for head in parent_heads} <= {"floor", "ground"}
+        if floor and link.kind == "on" and children and len(children) < len(children[0].group.items):
+            self._world.grounded |= {*children}
         if link.manner == "goal" and self._clause.manner in ("other", "unload"):
             # "Pour the milk into the glass": before that it is not there.
             self._said.not_understood((*child_heads, *parent_heads))

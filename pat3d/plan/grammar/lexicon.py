@@ -125,6 +125,7 @@ PARTS = frozenset({"head", "top", "back", "edge", "side", "middle", "center", "c
     "rind", "stalk", "fin", "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot",
     "stitching", "engraving", "bite", "residue", "component", "earpiece",
     "gripper", "effector", "manipulator",
+    "logo", "sticker", "crack", "scratch", "stain", "decal", "emblem", "inscription",
     "yolk", "condensation", "droplet", "underside", "outline", "hue", "highlight", "reflection"})  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal",

@@ -84,6 +84,10 @@ class Placing:
                 world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
                 self._relating.cost += _UNSAID * (world.containment(children[0]) != "in")
             else:
+                if not owners and depth and len(children) < len(children[0].group.items):
+                    # "A rack with six tubes, three of them in front": of the rack, or the front ones.
+                    of = parents[0].group.words
+                    world.note(f'"{chunk.text}" is read as said of "{of}".')
                 self._relating.relate(children, chunk.link, parents)
             return
         side = chunk.text
