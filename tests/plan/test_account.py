@@ -60,7 +60,7 @@ def test_a_number_for_each_of_several_is_as_many_times_it():
         ("A toy car whose wheels are red.", "whose wheels are red"),
         ("A yellow cup on the table and a cup of the same colour under it.", "of the same colour"),
         ("Move the vase to where the clock is.", "where the clock is"),
-        ("Three eggs in a bowl and one beside it.", "next_to"),
+        ("Three eggs in a bowl and one beside it.", "next to"),
         ("A speaker is connected to a laptop on the desk.", "to"),
         ("Lift the lid of the pot.", "the lid of the pot"),
         ("Two lemons were left on the chopping board, right next to the knife.", "is next to"),
@@ -111,7 +111,6 @@ def test_what_is_set_aside_holds_nothing_up_and_a_note_says_so():
         ("The keyboard goes in front of the screen and the mouse goes to its right.", "keyboard"),
         ("Open the box and take out the doll.", "take out"),
         ("A basket is hanging under a shelf.", "hanging"),
-        ("Everything on the shelf is red: two books, a vase and a clock.", "Everything"),
     ],
 )
 def test_what_a_scene_does_not_hold_of_a_place_is_named(sentence, named):

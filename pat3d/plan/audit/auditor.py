@@ -9,10 +9,11 @@ from dataclasses import replace
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.claims import broken
-from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.identity import confused
+from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
-from pat3d.plan.audit.numbers import choices, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
@@ -21,6 +22,7 @@ from pat3d.plan.audit.places import (
     insides,
     middles,
     on_the_other,
+    opposite,
     others,
     parts,
     shared_out,
@@ -36,17 +38,20 @@ from pat3d.plan.audit.words import (
     DEEDS,
     EACH,
     ENDS,
+    FALLEN,
     FORMED,
     HEADLESS,
     NUMBERS,
     ON_DISHES,
     ORDINALS,
     PACKETS,
+    PIECES,
     POURED,
     REPEATS,
     SHADES,
     SILENT,
     UNCOUNTED,
+    UNSURE,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.arrangements import crossing
@@ -59,6 +64,7 @@ _REMARK = re.compile(r'not modelled: "([^"]*)"')
 _REMARK_WORDS = 3
 _SHARE = 8
 """Words of "one to the left of each"."""
+_COLOURS = frozenset({"color", "colors", "colour", "colours", "different", "various", "colored", "coloured"})
 _REACH = 5
 """Words from "a stack" to what it is of."""
 
@@ -97,8 +103,27 @@ def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> Sce
         find: the catalogue noun that a name means, or None.
         furniture: nouns of what stands on the floor by nature, of which nobody says where it is.
     """
-    auditor = _Auditor(plan, read(_without_remarks(plan), find), furniture)
-    return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *auditor.differences()))))
+    senses = _senses(plan, find)
+    said = read(_without_remarks(plan), lambda name: find(name) or senses.get(name))
+    auditor = _Auditor(plan, said, furniture)
+    notes = tuple(dict.fromkeys((*plan.notes, *auditor.differences())))
+    return replace(plan, notes=told_once(auditor, notes))
+
+
+def _senses(plan: ScenePlan, find: Find) -> dict[str, str]:
+    """Names that mean something by their company alone, as the plan has them: the computer of a desk."""
+    made: dict[str, str] = {}
+    for obj in plan.objects:
+        phrase, name = obj.phrase.lower().split(), re.sub(r" \d+$", "", obj.name)
+        for size in (1, 2):
+            said = " ".join(phrase[-size:])
+            known = (
+                not phrase or phrase[-1] in SILENT | UNSURE | {"toy"} or "of" in said or find(phrase[-1]) is not None
+            )
+            known = known or any(find(one) is not None for one in singulars(phrase[-1]))
+            if len(phrase) >= size and name.split()[-size:] == said.split() and not known:
+                made[said] = obj.noun
+    return made
 
 
 def _shapes(it: Compared) -> frozenset[str]:
@@ -111,9 +136,11 @@ def _shapes(it: Compared) -> frozenset[str]:
     return (
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles"} if stacked else ())
+        | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
+        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
-        | frozenset({"flat"} if lying else ())
+        | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
+        | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())
     )
 
 
@@ -125,7 +152,9 @@ class _Auditor(Compared):
             if find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects):
                 continue
             place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
-            if (place or not mention.owned) and not self.of(mention) and not self.named(mention.text):
+            if self._listed(mention):
+                continue
+            if (place or not mention.owned) and not self.of(mention) and not self._is_part(mention):
                 made.append((mention.start, f'not in the scene: "{mention.text}"'))
         made += self._miscounted()
         for mention in self.said.mentions:
@@ -152,11 +181,24 @@ class _Auditor(Compared):
         ]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
+        made += opposite(self)
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
                 made.append((claim.at, note))
         found = [note for _, note in sorted(made)]
         return [*found, *unsaid(self, found)]
+
+    def _is_part(self, mention: Mention) -> bool:
+        """Whether a note names `mention`, or it is a part of what stands before it: the bed of "a block in its bed"."""
+        claim = next((claim for claim in self.said.claims if claim.of is mention), None)
+        before = [other for other in self.said.mentions if claim is not None and other.end <= claim.at][-3:]
+        if self.named(mention.text):
+            return True
+        if claim is None or not mention.owned or len(before) < 2:
+            return False
+        names = [{obj.name for obj in self.which(other)} for other in before]
+        return any(a in names[-1] and b in set().union(*names[:-1]) and kind in KINDS.get(claim.place, ())
+                   for a, kind, b in self.edges)  # fmt: skip
 
     def _predicated(self, at: int) -> tuple[int, Collection[PlannedObject]]:
         """Of how many objects the colour at word `at` is said at least, and which may be meant."""
@@ -166,11 +208,20 @@ class _Auditor(Compared):
         said = self.said.words[len(words) : at]
         several = words[-1:] in (["are"], ["were"]) and ("both" in said or "all" in said)
         landmarks = [claim.of for claim in self.said.claims]
+        listed = self.said.words[at + 1 : at + 3]
+        if listed[:1] == ["and"] or (listed[:1] == [","] and find_colour(listed[-1])):
+            # "The cups are red, yellow and blue."
+            return 1, self.plan.objects
         subject = [mention for mention in self.said.mentions
                    if mention.end == len(words) - 1 and mention not in landmarks]  # fmt: skip
         if several or not subject or words[-1:] not in (["is"], ["was"], ["are"], ["were"]):
             return 2 if several else 1, self.plan.objects
         own = self.which(subject[0])
+        lead = self.said.words[max(subject[0].first - 3, 0) : subject[0].first]
+        lead = [word for word in lead if word != "the"][-2:]
+        if lead[1:] == ["of"]:
+            # "Half of the eight blocks are red", "two of them"
+            return NUMBERS.get(lead[0], 1), own or self.plan.objects
         return (len(own) if words[-1] in ("are", "were") and "and" not in words else 1), own or self.plan.objects
 
     # Objects
@@ -178,25 +229,36 @@ class _Auditor(Compared):
     def _miscounted(self) -> list[tuple[int, str]]:
         made: list[tuple[int, str]] = []
         nouns: dict[str, list[Mention]] = {}
-        for mention in self.said.mentions:
+        for mention in (one for one in self.said.mentions if not self._listed(one)):
             nouns.setdefault(mention.noun, []).append(mention)
         for noun, mentions in nouns.items():
             counts = {sum(obj.noun == noun for obj in self.plan.objects),
                       len({obj.name for mention in mentions for obj in self.of(mention)})} - {0}  # fmt: skip
             text = mentions[-1].text
-            if not counts or any(self.named(said) for said in (noun, *(mention.text for mention in mentions))):
+            if (
+                not counts
+                or all(self._packed(mention) for mention in mentions)
+                or any(self.named(said) for said in (noun, *(mention.text for mention in mentions)))
+            ):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
-            known = [mention for mention, before in zip(mentions, leads, strict=True)
-                     if mention.new or mention.end in placed or mention.lead not in before
-                     or not _named_so(mention, mentions[: mentions.index(mention)])]  # fmt: skip
+            known = [
+                mention
+                for at, (mention, before) in enumerate(zip(mentions, leads, strict=True))
+                if mention.new
+                or mention.end in placed
+                or mention.lead not in before
+                or side_of(self, mention)
+                or not _named_so(mention, mentions[:at])
+            ]
             bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
             listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
             least = max(least, listed if listed > 1 else 0)
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
+            endless = endless or any(had_by_each(self, mention) for mention in mentions)
             members = [mention for mention in known if self._member(mention, mentions)]
             # "An apple in one and a pear in the other": one of each.
             endless = endless and not any(self.said.words[m.end : m.end + 2] in (["in", "one"], ["on", "one"]) and
@@ -205,6 +267,30 @@ class _Auditor(Compared):
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    def _listed(self, mention: Mention) -> bool:
+        """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""
+        words = self.said.words
+        if not mention.plural:
+            return False
+        stop = next((at for at in range(mention.end, len(words)) if words[at] in (":", ".", ";")), len(words))
+        behind = words[mention.end : mention.end + 1] == ["("] and ")" in words[mention.end :]
+        start, end = mention.end + 1, words.index(")", mention.end) if behind else len(words)
+        if not behind and (stop == len(words) or words[stop] != ":" or mention.number is None):
+            return False
+        if not behind:
+            start = stop + 1
+            end = next((at for at in range(start, len(words)) if words[at] in (".", ";", ":")), len(words))
+        listed = re.split(r" ?, and | ?, | and ", " ".join(words[start:end]))
+        heads = [one.split()[-1] for one in listed if one]
+        counted = {*words[start:end]} & (NUMBERS.keys() - {"a", "an"})
+        alone = not counted and not all(map(find_colour, heads)) and len(heads) > 1
+        return alone and not {"one", "ones"} & {*heads} and mention.number in (None, len(heads))
+
+    def _packed(self, mention: Mention) -> bool:
+        """Whether what `mention` names is counted in bottles: the soap of "three bottles of soap"."""
+        before = self.said.words[max(mention.first - 2, 0) : mention.first]
+        return before[1:] == ["of"] and bool({before[0], *singulars(before[0])} & (PACKETS | PIECES | {"bunch"}))
 
     def _member(self, mention: Mention, mentions: Sequence[Mention]) -> bool:
         """Whether `mention` is one of those that stand behind it: "the third book in a row of five books"."""
@@ -309,8 +395,14 @@ class _Auditor(Compared):
                 or not word[0].isalpha()
             ):
                 continue
-            if find_colour(word) or find_material(word) in materials or (word == "half" and self._halved()):
+            acts = word == "robot" and words[at + 1 : at + 2] in (["should"], ["will"], ["finds"], ["can"])
+            hued = word in _COLOURS and len({obj.colours for obj in self.plan.objects}) > 2
+            gone = acts or hued or (word in FALLEN and words[at + 1 : at + 2] in (["out"], ["off"], ["from"], ["down"]))
+            if gone or find_colour(word) or find_material(word) in materials or (word == "half" and self._halved()):
                 continue
             if not re.search(rf"\b{re.escape(word)}\b", self.quoted) and not (asked and word in DEEDS):
-                made.append((at, f'not heard: "{word}"'))
+                start = at
+                while start and find_colour(words[start - 1]) and start - 1 not in named:
+                    start -= 1
+                made.append((at, f'not heard: "{" ".join(words[start : at + 1])}"'))
         return made

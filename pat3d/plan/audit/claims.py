@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import BACKWARD, CLOSED, FINITE, OPENING, REACHING
+from pat3d.plan.audit.words import BACKWARD, CLOSED, FINITE, HOLLOW, OPENING, REACHING, SPREAD
 
 
 def broken(it: Compared, claim: Claim) -> str | None:
@@ -20,11 +20,11 @@ def broken(it: Compared, claim: Claim) -> str | None:
     if claim.place == "far" and it.tasks.strip() and any(b in of and kind in ("on", "in") for _, kind, b in it.edges):
         # "Take the cup away from the table": before the task it is there.
         return None
-    around = any(kind == "over" for _, kind, _ in it.edges)
-    turned = not around and any(each.kind == "upside_down" for each in it.plan.postures)
-    if (turned and claim.place == "above") or not _holds(it, claim, _here(it, claim), of):
+    turned = {each.object for each in it.plan.postures if each.kind == "upside_down"}
+    upset = any(a in turned and b in of and kind == "on" for a, kind, b in it.edges)
+    if (claim.place == "above" and upset) or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
-    whose = whose_of(it, claim)
+    whose = set() if fronted(it, claim) else whose_of(it, claim)
     if whose and not all(
         _holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])
     ):
@@ -62,12 +62,27 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
     near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
     child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
     child |= {obj.name for mention in _before(it, claim.at)[-1:] if mention.end == claim.at for obj in it.of(mention)}
+    # "A cup and a bowl are on a table. A spoon is between them."
+    near |= {obj.name for mention in _before(it, claim.at) if mention.part < claim.part for obj in it.of(mention)}
     return set(names) <= near and not set(names) & child
 
 
 def _opens(it: Compared, claim: Claim) -> bool:
     """Whether a clause may begin with `claim`, so that what it is said of stands behind it."""
-    return claim.at == 0 or it.said.words[claim.at - 1] in OPENING or not it.said.words[claim.at - 1][0].isalnum()
+    words = it.said.words
+    if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
+        return True
+    # "On the desk next to the laptop is a mug"
+    ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
+    return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
+
+
+def fronted(it: Compared, claim: Claim) -> bool:
+    """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
+    return any(
+        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        for one in it.said.claims
+    )
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
@@ -86,11 +101,11 @@ def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
     children = children or here
     kinds = KINDS[claim.place]
     tables = {obj.name for obj in it.plan.objects if obj.noun in it.furniture}
-    said = {obj.name: obj.phrase for obj in it.plan.objects}
+    said = {obj.name: (obj.phrase, obj.colours, obj.adjectives, obj.scale) for obj in it.plan.objects}
     return any(
         # "One of the shoes is under the bed, the other in front of it": of no shoe.
         kind in kinds
-        and said.get(a) != said.get(b)
+        and said[a] != said[b]
         and a in children
         and b in landmarks
         and not (claim.place == "across" != kind and b in tables)
@@ -106,6 +121,12 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
             own = {obj.name for obj in it.which(owner)}
             led = any(each.of is owner for each in it.said.claims)
             here = own | {a for a, _, b in it.edges if b in own and led} | (set() if own else here)
+        behind = next((each.of for each in it.said.claims if each.at == claim.end and each.place == "on"), None)
+        if owner is not None and behind is not None and owner.noun.split()[-1] not in HOLLOW:
+            # "A laptop with a mouse on a desk": both are on it.
+            desk = {obj.name for obj in it.which(behind)}
+            if all(desk & {*it.above(name)[:1]} for name in (*here, *of)):
+                return True
         return not (owner or claim.whose) or any({a, b} & set(of) and {a, b} & here for a, _, b in it.edges)
     if claim.place == "holding":
         before = {obj.name for mention in _before(it, claim.at) for obj in it.of(mention)}
@@ -114,8 +135,9 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         return claim.of is None or any(
             a in of and b in owners and kind in ("on", "in", "over") for a, kind, b in it.edges
         )
-    kinds = set(KINDS[claim.place])
-    if claim.place == "between" and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
+    kinds = set(it.kinds(claim))
+    single = claim.place == "between" and "on" not in kinds and claim.of is not None
+    if single and claim.of is not None and (claim.of.number or 1) == len(of) > 1:
         # "between two dolls": between no other things.
         return any(one.kind == "between" and set(one.of) <= set(of) for one in it.plan.arrangements)
     if claim.of is None and claim.place == "between":
@@ -128,11 +150,13 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         return any(kind in kinds and {a, b} & here for a, kind, b in it.edges)
     if claim.said.startswith(("on the left", "on the right")):
         kinds |= {"on"}
+    if "middle of" in claim.said and len(of) > 1:
+        kinds |= {"between"}
     if claim.said.startswith("off ") and not (it.tasks.strip() or it.undone or "is read as the scene" in it.quoted):
         kinds = {"next_to", "far_from", "hangs_from"}
     if claim.of.noun in CLOSED and claim.place in ("in", "from"):
         kinds -= {"on"}
-    if claim.of.noun in it.furniture and claim.place == "across":
+    if claim.of.noun in it.furniture and claim.place == "across" and not it.led(claim, SPREAD):
         # "Two chairs across a table from each other" stand on none.
         kinds -= {"on"}
     stated = claim.at > 0 and it.said.words[claim.at - 1] in FINITE

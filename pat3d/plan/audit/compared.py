@@ -7,9 +7,9 @@ from collections.abc import Collection
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.text import Claim, Mention, Said, singulars
-from pat3d.plan.audit.words import HEADLESS, Place
+from pat3d.plan.audit.words import FALLEN, HEADLESS, PARTS, SHARED, Place
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.scene.relations import carriers_of
+from pat3d.scene.relations import Relation, carriers_of
 
 _MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
              "next_to": "next_to", "on": "under", "under": "over", "far_from": "far_from",
@@ -90,7 +90,12 @@ class Compared:
 
     def of(self, mention: Mention) -> list[PlannedObject]:
         """The objects that `mention` may name."""
+        others = {one.text for one in self.said.mentions if one.noun == mention.noun and one.text != mention.text}
         words = {mention.text, *singulars(mention.text)}
+        own = [obj for obj in self.plan.objects if obj.phrase.lower().endswith(tuple(words))] if others else []
+        if own and any(obj.phrase.lower().endswith(tuple(others)) for obj in self.plan.objects):
+            # "A computer next to a laptop", "a hamper and a laundry basket": one noun, two names.
+            return own
         last = mention.text.split()[-1]
         heads = {last, *singulars(last)}
         return [
@@ -131,6 +136,21 @@ class Compared:
             for note in self.notes
         )
 
+    def led(self, claim: Claim, words: Collection[str]) -> bool:
+        """Whether one of `words` stands right before `claim`."""
+        return bool({*self.said.words[max(claim.at - 2, 0) : claim.at]} & {*words})
+
+    def kinds(self, claim: Claim) -> frozenset[str]:
+        """The relations and arrangements of a plan that `claim` may be."""
+        kinds = KINDS.get(claim.place, frozenset())
+        if claim.place == "beside" and PARTS.keys() & {*self.said.words[claim.at : claim.end]}:
+            return kinds | {"at_edge", "in_corner", "on"}
+        if claim.place == "between" and self.led(claim, SHARED):
+            return kinds | {"on", "in"}
+        if claim.place == "from" and self.led(claim, FALLEN) and not self.tasks.strip():
+            return kinds | KINDS["beside"]
+        return kinds
+
     def has(self, obj: PlannedObject, colour: str) -> bool:
         """Whether `obj` has `colour`, in its name or of its material."""
         wanted = find_colour(colour) or colour
@@ -138,6 +158,10 @@ class Compared:
         return wanted in own or colour in (obj.material or "") or any(
             colour in word or wanted in word for word in (*obj.adjectives, obj.noun, obj.name)
         )  # fmt: skip
+
+    def support(self, name: str) -> Relation | None:
+        """By what object `name` is carried; None on the ground."""
+        return next((rel for rel in self.plan.relations if rel.child == name and rel.supports), None)
 
     def above(self, name: str) -> list[str]:
         """What carries object `name`, what carries that, and so on."""

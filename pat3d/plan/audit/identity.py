@@ -19,6 +19,7 @@ from pat3d.plan.audit.words import (
     NUMBERS,
     PACKETS,
     PIECES,
+    PLACING,
     POSED,
     POURED,
     REPEATS,
@@ -35,6 +36,7 @@ _SEVERAL = (REPEATS - EACH) | {"second", "third"}
 """Words by which there are several of what is named in the singular."""
 _TENS = re.compile(r".*(teen|ty)|twenty-.*|hundred")
 
+_ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
 _ALWAYS = frozenset({"instead", "namely", "respectively", "half", "twice"})
 """First words of what is always read as a guess; the others only where something ends on the ground."""
 
@@ -50,6 +52,7 @@ def confused(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _parts_as_things(it)
     yield from _unpacked(it)
     yield from _unasked(it)
+    yield from _arms(it)
     yield from _loose(it)
 
 
@@ -64,8 +67,8 @@ def _contradictory(it: Compared) -> Iterator[str]:
 
 def _merged(it: Compared) -> Iterator[tuple[int, str]]:
     """Two definite names with different places behind them, and one object for both."""
-    for one, other in pairwise([mention for mention in it.said.mentions if _side(it, mention)]):
-        sides = _side(it, one), _side(it, other)
+    for one, other in pairwise([mention for mention in it.said.mentions if side_of(it, mention)]):
+        sides = side_of(it, one), side_of(it, other)
         if one.noun == other.noun and one.colours == other.colours and sides[0] != sides[1] and len(it.which(one)) == 1:
             yield other.start, f'"{one.text} {sides[0]}" and "{other.text} {sides[1]}" are read as one'
     landmarks = [claim.of for claim in it.said.claims]
@@ -80,7 +83,7 @@ def _merged(it: Compared) -> Iterator[tuple[int, str]]:
                 yield other.start, f'"{one.text} {its.said}" and "{other.text} {place.said}" are read as one'
 
 
-def _side(it: Compared, mention: Mention) -> str:
+def side_of(it: Compared, mention: Mention) -> str:
     """The side behind a definite name that tells it from its like: "the bowl on the left"."""
     said = it.said.words[mention.end : mention.end + 3]
     definite = it.said.words[mention.first] == "the" and not mention.plural
@@ -100,7 +103,7 @@ def _multiplied(it: Compared) -> Iterator[tuple[int, str]]:
     words = it.said.words
     each = [at for at, word in enumerate(words) if word in EACH]
     own = (["of", "them"], ["of", "which"])
-    led = [at for at in each if set(words[at + 1 : at + 2]) & (BREAKING - {"of"})
+    led = [at for at in each if (set(words[at + 1 : at + 2]) & (BREAKING - {"of"}) and words[at - 1] not in PLACING)
            or (words[at - 1] == "," and words[at + 1 : at + 3] in own)]  # fmt: skip
     for mention in it.said.mentions:
         alone = sum(other.noun == mention.noun for other in it.said.mentions) == 1
@@ -125,8 +128,11 @@ def _numbered(it: Compared) -> Iterator[str]:
         several = it.of(mention)
         phrases = {obj.phrase.lower() for obj in several}
         said = {word for phrase in phrases for word in phrase.split()}
-        counted = any(word in NUMBERS or word.isdecimal() or _TENS.fullmatch(word) for word in said)
-        counted = counted or mention.number is not None or mention.noun in SINGLE or not mention.plural
+        vague = said & {"lot", "lots", "number", "few", "several", "many"}
+        counted = not vague and any(word in NUMBERS or word.isdecimal() or _TENS.fullmatch(word) for word in said)
+        counted = counted or any("as many" in phrase for phrase in phrases)
+        listed = it.said.words[mention.end : mention.end + 1] == ["("] or "colors" in it.said.words
+        counted = counted or listed or mention.number is not None or mention.noun in SINGLE or not mention.plural
         if counted or len(several) < 2 or len(phrases) != 1 or any(word in REPEATS for word in it.said.words):
             continue
         if not any(phrase in it.quoted for phrase in phrases) and mention.text not in it.quoted:
@@ -200,6 +206,13 @@ def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
         yield 0, f'not modelled: "{start[0]}": no task is made of it.'
 
 
+def _arms(it: Compared) -> Iterator[tuple[int, str]]:
+    """Which arm is to act, which no task says."""
+    for found in _ARM.finditer(" ".join(it.said.words)):
+        if it.tasks.strip() and found[0] not in it.quoted and found[2] not in it.told:
+            yield 0, f'not modelled: "{found[0]}": a task does not say which arm acts.'
+
+
 def _loose(it: Compared) -> Iterator[tuple[int, str]]:
     """Words that join what they name to the rest in more than one way, and how they are read."""
     words = it.said.words
@@ -211,7 +224,8 @@ def _loose(it: Compared) -> Iterator[tuple[int, str]]:
         named = [mention for mention in it.said.mentions if at + size <= mention.start < end]
         text = " ".join(words[at:end])
         ground = any(not it.above(obj.name) for mention in named for obj in it.which(mention))
-        if named and (ground or words[at] in _ALWAYS) and not it.named(named[0].text):
+        done = it.tasks.strip() and all(obj.name in it.tasks for mention in named for obj in it.which(mention))
+        if named and not done and (ground or words[at] in _ALWAYS) and not it.named(named[0].text):
             yield at, f'"{text}" is read as: {"; ".join(dict.fromkeys(_where(it, mention) for mention in named))}'
 
 

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from pat3d.plan.audit.claims import whose_of
-from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.claims import fronted, whose_of
+from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, PRONOUNS, REACHING, REPEATS
-from pat3d.scene.relations import OPPOSITE, Relation
+from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, NUMBERS, PRONOUNS, REACHING, REPEATS
+from pat3d.scene.relations import OPPOSITE, RELATION_WORDS, Relation
 
 _SIDES = {"left": "left_of", "right": "right_of", "front": "in_front_of"}
 _ORDERS = frozenset({"row", "rows", "line", "lined", "order", "side"})
@@ -28,6 +28,8 @@ _WITHIN = 4
 """Words from a relation word to the like without a noun that it leads to."""
 _FEATURING = frozenset({"decorated", "including", "includes", "features", "featuring"})
 """Words by which what is first named has all that follows."""
+_PLACES = ("in_corner", "at_edge")
+"""Places on something, which only words for them give."""
 _SO = frozenset({"is", "are", "does", "do", "was", "were"})
 _HEADLESS_INSIDE = re.compile(
     r"\b(in|inside|into|within|contains?|containing|holds?|holding) ((?!and\b)[a-z]+ ){0,3}"
@@ -61,15 +63,22 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
         given = (_licensed(it, rel.child, rel.kind, rel.parent) if rel.supports else _stands(it, rel)
                  for rel in relations)  # fmt: skip
         if child != parent and not any(given) and parent.lower() not in noted and child.lower() not in it.told:
-            yield f'assumed: "{child}" {relations[0].kind.replace("_", " ")} "{parent}"'
+            yield f'assumed: "{child}" {RELATION_WORDS[relations[0].kind]} "{parent}"'
 
 
 def _stacked(words: Sequence[str]) -> bool:
     """Whether a word says that likes stand on one another, or something on one of which the noun is not said."""
     upon = (at for at, word in enumerate(words) if word in _UPON)
-    return bool(_STACKING & set(words)) or any(
-        _ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon
+    return (
+        bool(_STACKING & set(words))
+        or {"bottom", "top"} <= set(words)
+        or any(_ANOTHER & set(words[at + 1 : at + 1 + _WITHIN]) and "'s" not in words[at : at + _WITHIN] for at in upon)
     )
+
+
+def _from_below(words: Sequence[str]) -> bool:
+    """Whether the sentence says who is at the bottom and who on top."""
+    return any(each <= set(words) for each in ({"bottom", "top"}, {"from", "top", "down"}, {"from", "bottom", "up"}))
 
 
 def _told_of(it: Compared, claim: Claim) -> set[str]:
@@ -130,15 +139,24 @@ def _flanked(it: Compared, rel: Relation) -> bool:
 
 
 def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
+    """Whether a word of the sentence says that `child` is at `parent`, or what is in `child` is: "a rose in a vase"."""
+    return _said_at(it, child, kind, parent) or (kind == "on" and any(
+        b == child and k == "in" and _said_at(it, a, kind, parent) for a, k, b in sorted(it.edges)
+    ))  # fmt: skip
+
+
+def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
-    if inside or not {child, parent} <= named:
+    if inside or (kind == "on" and _from_below(it.said.words)) or not {child, parent} <= named:
         return True
     for claim in it.said.claims:
         below, above = _landmarks(it, claim), _said_of(it, claim)
         subjects, _ = said_of(it, claim)
         if subjects and claim.of is not None and claim.place not in ("with", "holding"):
             above = _names(it, subjects)
+        if fronted(it, claim):
+            above = _names(it, [mention for mention in it.said.mentions if mention.start >= claim.end])
         if claim.place in ("with", "holding", "under") and child in below and parent in above:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
@@ -147,9 +165,17 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
         if claim.place == "with" and owner and not claim.whose:
             above = _names(it, owner)
         taken = claim.place == "far" and bool(it.tasks.strip())
-        kinds = ("on", "in") if claim.place == "with" or taken else KINDS.get(claim.place, ())
+        kinds = ("on", "in") if claim.place == "with" or taken else it.kinds(claim)
         if kind in kinds and parent in below and child in above:
             return True
+    had = [claim.end for claim in it.said.claims if claim.place in ("with", "holding")]
+    for one, other in pairwise(it.said.mentions):
+        # "The tray holds a cup and the plate a bun": the verb is left out.
+        gap = one.end == other.first and any(end <= one.first for end in had)
+        if gap and parent in _names(it, [one]) and child in _names(it, [other]):
+            return True
+    if any(one.kind in _PLACES and child in one.objects and parent in one.of for one in it.plan.arrangements):
+        return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
         before, behind = ([mention for mention in it.said.mentions if (mention.start < at) is first]
                           for first in (True, False))  # fmt: skip
@@ -197,7 +223,10 @@ def _inside(words: Sequence[str], at: int) -> bool:
 
 def _so_is(words: Sequence[str], mention: Mention) -> bool:
     """Whether what `mention` names is said to be where something else is: "a hammer, too", "and so is the hammer"."""
-    before, after = words[: mention.first], [word for word in words[mention.end : mention.end + 2] if word != ","]
+    start = mention.first
+    if words[start - 2 : start] == ["of", "the"] and words[start - 3] in NUMBERS:
+        start -= 3
+    before, after = words[:start], [word for word in words[mention.end : mention.end + 2] if word != ","]
     return bool(set(after) & _ADDING) or (before[-2:-1] == ["so"] and before[-1] in _SO)
 
 
@@ -244,5 +273,7 @@ def _said_of(it: Compared, claim: Claim) -> set[str]:
     others = [mention for mention in it.said.mentions if mention is not claim.of]
     said = it.said.words[: claim.at]
     start = next((at + 1 for at in range(len(said) - 1, -1, -1) if said[at] in (".", ";", "!", "?")), 0)
-    reaches = bool(REACHING & set(said[start:])) or claim.of is None
+    # "Both hold a nut": of what the sentence before names.
+    reaches = bool(REACHING & set(said[start:]) or {"both", "each", "all"} & set(said[start : start + 1]))
+    reaches = reaches or claim.of is None
     return _names(it, [mention for mention in others if mention.part == claim.part or reaches])

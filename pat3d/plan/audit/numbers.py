@@ -9,6 +9,7 @@ from itertools import pairwise
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.text import Mention
 from pat3d.plan.audit.words import ADJECTIVES, ARTICLES, CORNERS, EACH, ENDS, NUMBERS, POSED, RELATIONS
 
 _BIG = frozenset({"big", "large", "huge", "giant"})
@@ -18,7 +19,9 @@ _REACH = 6
 """Words of "two of them in each of"."""
 _STEMS = frozenset({"larg", "bigg", "small", "tall", "short", "long", "wid", "thick", "thinn", "tini", "high", "low"})
 """Of comparatives."""
-_AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
+_AS_MANY = re.compile(
+    r"(?<!half )(?<!twice )(?<!times )\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)"
+)
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
 
@@ -30,11 +33,25 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _all_but(it)
     yield from _dozens(it)
     yield from _as_many(it)
+    yield from _in_brackets(it)
     yield from _of_one(it)
     yield from _stacked(it)
     yield from _partly(it)
     yield from _compared_sizes(it)
     yield from _held_by_other(it)
+
+
+def had_by_each(it: Compared, mention: Mention) -> bool:
+    """Whether several things have one each of what `mention` names: "two trays hold a burger"."""
+    verbs = [
+        claim.at
+        for claim in it.said.claims
+        if claim.place in ("with", "holding") and claim.end <= mention.end and claim.part == mention.part
+    ]
+    owned = [one for one in it.said.mentions if one.plural and verbs and one.end <= verbs[-1]]
+    owners = {obj.name for obj in it.which(owned[-1])} if owned else set()
+    of = [{b for a, _, b in it.edges if a == obj.name and b in owners} for obj in it.of(mention)]
+    return len(of) > 1 and all(len(by) == 1 for by in of) and len({min(by) for by in of}) == len(of)
 
 
 def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
@@ -44,7 +61,7 @@ def _miscounted_shares(it: Compared) -> Iterator[tuple[int, str]]:
         return
     for at, word in enumerate(words[:-1]):
         count = NUMBERS.get(word, 0) if word not in ("a", "an", "another", "single", "dozen", "one", "both") else 0
-        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or")):
+        if not count or (at and words[at - 1] in ("the", "other", "of", "in", "by", "or", "but")):
             continue
         behind = at + 1
         if words[behind : behind + 2] in _OF_THEM:
@@ -256,6 +273,17 @@ def rows(it: Compared) -> Iterator[tuple[int, str]]:
         at = next((at for at in range(len(words)) if " ".join(words[at : at + size]) == said), None)
         if at is not None and not stands and len(it.plan.objects) > 1 and said not in it.quoted:
             yield at, f'not as said: "{said}"'
+
+
+def _in_brackets(it: Compared) -> Iterator[tuple[int, str]]:
+    """A number behind which more or less is listed: "three fruits (a fig, a pear)"."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word == "(" and ")" in words[at:]):
+        said = next((n for n in range(at - 1, max(at - _REACH, -1), -1) if words[n] in _SHARES), at)
+        listed = re.split(r" ?, and | ?, | and ", " ".join(words[at + 1 : words.index(")", at)]))
+        plain = not NUMBERS.keys() - {"a", "an"} & {word for each in listed for word in each.split()}
+        if said < at and len(listed) > 1 and plain and len(listed) != NUMBERS[words[said]]:
+            yield at, f'counted otherwise: "{" ".join(words[said:at])}", of which {len(listed)} are listed'
 
 
 def _of_one(it: Compared) -> Iterator[tuple[int, str]]:

@@ -37,6 +37,8 @@ _LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
 """How many there are at least of what a word without a noun is one of."""
 _ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
 """Words that say on which side of each something is."""
+_NEAR = frozenset({"on", "at", "in"})
+_SIDES = ("side", "end", "corner", "edge")
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -104,6 +106,10 @@ def _mate_is_told(it: Compared, obj: PlannedObject, part: set[str]) -> bool:
         if any(a in names and (own is other or (kind != "under" and not it.above(b))) for a, kind, b in it.edges):
             return True
     # Of likes told of one by one, and of what something is said to have.
+    likes = [like for like in it.plan.objects if like.noun == obj.noun and like.phrase != obj.phrase]
+    if any(not it.above(like.name) for like in likes):
+        # "A jar with a spoon in it and an empty jar": where the others are.
+        return False
     if obj.noun not in it.furniture and any(_had(it, mention) for mention in mentions if obj in it.which(mention)):
         return True
     return any(it.above(like.name) for like in it.plan.objects if like.phrase == obj.phrase)
@@ -133,6 +139,17 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'not modelled: "{word}" of "{whole.text}"'
 
 
+def opposite(it: Compared) -> Iterator[tuple[int, str]]:
+    """Which of the corners something is in: any one will do for the plan."""
+    words = it.said.words
+    for at in (at for at in range(1, len(words) - 1) if words[at] in ("opposite", "far", "near")):
+        part = words[at + 1] if words[at + 1] in _SIDES else "corner"
+        told = words[at - 1] in ("the", "a") and words[at + 1] in ("one", "corner", "edge") and part in words
+        cornered = any(one.kind in ("in_corner", "at_edge") for one in it.plan.arrangements)
+        if told and cornered and not re.search(rf"\b{words[at]}\b", it.quoted):
+            yield at, f'not modelled: "{words[at]}" of "{part}": which of them is left open'
+
+
 def others(it: Compared) -> Iterator[tuple[int, str]]:
     """What "the other", "another" or "the second" is one of, where there is only one of it."""
     words = it.said.words
@@ -142,11 +159,8 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         follower = words[at + 1] if at + 1 < len(words) else "."
         if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
             continue
-        if (
-            word == "other"
-            and {"side", "end"} & set(words[:at])
-            and words[at - 2 : at] in (["on", "the"], ["at", "the"])
-        ):
+        led = words[at - 1] in _NEAR if word == "another" else words[at - 1] in ("the", "a") and words[at - 2] in _NEAR
+        if led and any(words[n - 1 : n + 1] == ["one", part] for n in range(1, at) for part in _SIDES):
             # "A lamp on one side of the bed and a clock on the other"
             continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
@@ -176,8 +190,11 @@ def insides(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in something closed, or taken out of it, and is placed on it."""
     words = it.said.words
     for at, word in enumerate(words):
-        led = words[max(at - 4, 0) : at]
-        if not {word, *singulars(word)} & CLOSED or not {"in", "inside", "into", "from", "out", "within"} & set(led):
+        led = {"in", "inside", "into", "from", "out", "within"} & set(words[max(at - 4, 0) : at])
+        holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(
+            words[at + 1 : at + 5]
+        )
+        if not {word, *singulars(word)} & CLOSED or not (led or holds):
             continue
         of = {obj.name for obj in it.plan.objects if word in (*obj.phrase.lower().split(), *obj.name.split())}
         above = [rel for rel in it.plan.relations if rel.kind == "on" and rel.parent in of]
@@ -221,13 +238,20 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
         start = next((mention for mention in it.said.mentions if mention.end == at - 2), None)
         if words[at - 2 : at] != ["in", "the"] or words[at + 1 : at + 2] == ["of"] or start is None:
             continue
+        if any(mention.first <= at < mention.end for mention in it.said.mentions):
+            # "the fork in the middle drawer"
+            continue
         own = {obj.name for obj in it.which(start)}
         rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]
         held = {name for one in rows or it.plan.arrangements for name in _middle(one)}
+        held |= {name for name in own for kind in ("left_of", "in_front_of") if not rows
+                 and any(b == name and k == kind for _, k, b in it.edges)
+                 and any(a == name and k == kind for a, k, _ in it.edges)}  # fmt: skip
         owners = {name for one in it.plan.arrangements if own & set(one.objects) for name in one.of}
         told = [mention.start for obj in it.plan.objects if obj.name in owners
                 for mention in it.said.mentions if mention.noun == obj.noun]  # fmt: skip
         late = bool(told) and min(told) > at
+        held |= {name for name in own if it.above(name) and any(name in it.above(obj.name) for obj in it.plan.objects)}
         if own and (late or not held & own) and words[at] not in it.quoted:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
 
@@ -313,10 +337,12 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
         if own:
             # "a fork beside each plate", "each plate holds a bun"
-            owners, things = it.which(own[0]), _led(it, own[0], at, before, behind[1:])
+            owners, things = it.which(own[0])[: own[0].number], _led(it, own[0], at, before, behind[1:])
         else:
             plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
-            owners, things = (it.which(plural[-1]) if plural else []), _listed(it, behind)
+            led = next((claim for claim in it.said.claims if claim.end == at + 1), None)
+            told = [mention for mention in before if led is not None and mention.end == led.at and not mention.plural]
+            owners, things = (it.which(plural[-1]) if plural else []), told or _listed(it, behind)
             for mention, last in reversed(list(pairwise(plural))):
                 if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
                     break
@@ -359,6 +385,9 @@ def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
 def _fewer(it: Compared, at: int, things: Sequence[Mention], wanted: int, said: str) -> Iterator[tuple[int, str]]:
     for thing in things:
         there = len(it.which(thing))
+        if said.split()[-1] in ENDS and 1 < there == thing.number:
+            # "two plants on either side of the door"
+            continue
         if thing.new and 0 < there < wanted * (thing.number or 1) and not it.named(thing.text):
             yield at, f'not as said: "{said}" wants {wanted * (thing.number or 1)} of "{thing.text}"; there are {there}'
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 
 from pat3d.assets.colours import find_colour
+from pat3d.plan.audit.claims import fronted
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, POSED, SILENT
+from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, HAS, POSED, PRONOUNS, SILENT
 
 _CHECKED = frozenset({"on", "on top", "in", "beside", "left", "right", "front", "behind", "under", "above", "against"})
 """Places of which one thing is said to be at one other."""
@@ -34,6 +35,8 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
         return note
     if asked or claim.place not in _CHECKED or claim.whose or it.excused(claim):
         return None
+    if fronted(it, claim):
+        return None
     back = claim.of is None
     if back and it.said.words[claim.end - 1] not in BACKWARD:
         return None
@@ -45,7 +48,7 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
     if not of or any(it.missing(mention) for mention in subjects):
         return None
     named = [{obj.name for obj in it.which(mention)} - (set() if back else of) for mention in subjects]
-    kinds = KINDS[claim.place]
+    kinds = it.kinds(claim) | ({"between"} if "middle of" in claim.said and len(of) > 1 else set())
     held = [any(a in names and b in of and kind in kinds for a, kind, b in it.edges) for names in named]
     for mention, names, holds in reversed(list(zip(subjects, named, held, strict=True))):
         told = any(obj.phrase.lower() in nowhere for obj in it.which(mention))
@@ -80,6 +83,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)
     if leading is None:
         return listed(it, near), finite
+    if not finite and (leading.at == 0 or words[leading.at - 1] in (".", ";", "!", "?")):
+        # "On the desk next to the clock is a mug": of the desk, or of the mug.
+        return [], False
     before, _ = said_of(it, leading)
     # "A cup on a saucer on a table": of the saucer, or of the cup; of the cup where a verb stands between.
     return (before, False) if finite else ([near, *before], False)
@@ -103,6 +109,8 @@ def _ending(it: Compared, at: int) -> Mention | None:
     words = it.said.words
     ends = {each.end: each for each in it.said.mentions}
     mention = ends.get(at)
+    if mention is not None and words[mention.first - 1 : mention.first] == ["without"]:
+        return ends.get(mention.first - 1)
     start = mention.first if mention is not None else at - 1
     if words[start - 1 : start] == ["of"]:
         whole = ends.get(start - 1)
@@ -135,9 +143,15 @@ def listed(it: Compared, last: Mention) -> list[Mention]:
     for mention in reversed([each for each in it.said.mentions if each.end <= last.first]):
         between = it.said.words[mention.end : made[0].first]
         between = between[2:] if between[:1] == ["of"] else between
+        if between[:1] == ["("] and ")" in between:
+            # "Four blocks (red, blue) and a bowl"
+            between = between[between.index(")") + 1 :]
         if not set(between) <= _JOINTS:
             break
         leading = next((claim for claim in it.said.claims if claim.of is mention), None)
+        if leading is not None and it.said.words[leading.at] in HAS and it.said.words[leading.at - 1] not in PRONOUNS:
+            # "A tray holds a cup, and a spoon lies on the mat": a clause of its own.
+            return made
         if leading is not None:
             owner = _ending(it, leading.at) if leading.place in ("with", "holding") else None
             return [*(listed(it, owner) if owner is not None else ()), *made]

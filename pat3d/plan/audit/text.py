@@ -17,10 +17,13 @@ from pat3d.plan.audit.words import (
     ARTICLES,
     BREAKING,
     ENDING,
+    ENDS,
+    GATHERINGS,
     HEADLESS,
     IRREGULAR,
     LEADING,
     LONGEST,
+    NAMES_BEHIND_ARTICLES,
     NUMBERS,
     OPENING,
     PARTICIPLES,
@@ -126,10 +129,14 @@ def _ranked(prompt: str, find: Find) -> str:
 def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
     prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    prompt = re.sub(r"\b(\d+) \((\w+)\)", lambda it: it[1] if str(NUMBERS.get(it[2])) == it[1] else it[0], prompt)
     prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
+    prompt = re.sub(r"\b(?:twice|half|[a-z]+ times) (?=as many\b)", "", prompt)
     prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
+    prompt = re.sub(r"\bas many\b(?! as\b)", "several", prompt)
+    prompt = re.sub(r"\b\w+ such as\b ?", "", re.sub(r", such as\b", ",", prompt))
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
-    prompt = re.sub(rf"\b(is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", r"\1", prompt)
+    prompt = re.sub(rf"\b(?:is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", "holds", prompt)
     prompt = re.sub(r"\bnot far (?:away )?from\b", "near", prompt)
     prompt = re.sub(r"\bthere (?:appear|seem|happen)s? to be\b", "there is", prompt)
     prompt = re.sub(r"\breach for\b", "take", prompt)
@@ -179,8 +186,14 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     while at < len(words):
         for size in range(min(_LONGEST_NAME, len(words) - at), 0, -1):
             whole = words[at : at + size]
-            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (["of"], ["made"], ["built"])
-            if size == 1 and (whole[0] in UNSURE or whole[0] in SHADES or formed):
+            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (
+                ["of"],
+                ["made"],
+                ["built"],
+                ["with"],
+                ["from"],
+            )
+            if size == 1 and (_unsure(words, at) or _hue(words, at) or whole[0] in SHADES or formed):
                 continue
             name = find(" ".join(whole))
             single = [found for one in singulars(whole[-1]) if (found := find(" ".join([*whole[:-1], one])))]
@@ -192,6 +205,19 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     return made
 
 
+def _hue(words: Sequence[str], at: int) -> bool:
+    """Whether the fruit at word `at` is the first of some colours: "orange, yellow and green blocks"."""
+    joined = words[at + 1 : at + 2] in (["and"], [","]) and at + 2 < len(words)
+    return joined and find_colour(words[at]) is not None and find_colour(words[at + 2]) is not None
+
+
+def _unsure(words: Sequence[str], at: int) -> bool:
+    """Whether word `at` is another word as often as a name, and no article before it makes it one."""
+    word = words[at]
+    plain = word in NAMES_BEHIND_ARTICLES and words[at - 1 : at] in (["a"], ["the"])
+    return (word in UNSURE and not plain) or any(one in GATHERINGS for one in singulars(word))
+
+
 def _mention(
     words: Sequence[str], start: int, end: int, noun: str, plural: bool, part: int, taken: set[int]
 ) -> Mention:
@@ -200,6 +226,9 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
+        # "the left one pencils": the pencils of the left one.
+        number = None
     if _elliptic(words, ahead) or SOME & lead:
         number, plural = None, True
     return Mention(
@@ -214,7 +243,7 @@ def _mention(
 def _elliptic(words: Sequence[str], ahead: Sequence[int]) -> bool:
     """Whether the noun is said of more than the words before it: "a red and a blue cup"."""
     at = ahead[-1] - 1 if ahead else -1
-    return at > 0 and words[at] in ("and", ",") and (
+    return at > 0 and words[at] in ("and", ",") and words[at - 2] not in ("is", "are") and (
         find_colour(words[at - 1]) is not None or words[at - 1] in ADJECTIVES
     )  # fmt: skip
 
@@ -228,9 +257,9 @@ def _before(words: Sequence[str], start: int, taken: set[int]) -> list[int]:
         if words[at] in ARTICLES:
             break
         at -= 1
-    if at in taken and find_colour(words[at]):
+    if at in taken and find_colour(words[at]) and words[at + 1] not in ("and", ","):
         # An orange plate.
-        made.append(at)
+        made += [at, at - 1] if at and words[at - 1] in ARTICLES else [at]
     while made and (words[made[-1]] in (",", "and")):
         made.pop()
     return made
@@ -250,7 +279,7 @@ def _size(words: Sequence[str], at: int) -> int:
     for size in range(LONGEST, 0, -1):
         place = RELATIONS.get(tuple(words[at : at + size]))
         after = words[at + size] if at + size < len(words) else ""
-        leads_on = after[:1].isalnum() and (after == "of" or after not in BREAKING | ARTICLES | OPENING)
+        leads_on = after[:1].isalnum() and (after in ("of", "one") or after not in BREAKING | ARTICLES | OPENING)
         if words[at] == "opposite" and words[at - 1] in ARTICLES:
             continue
         upon = words[at : at + size] == ["on", "the", "other"] and words[at - 1] == "one" and "side" not in words[:at]
@@ -261,8 +290,12 @@ def _size(words: Sequence[str], at: int) -> int:
 
 def _ends(words: Sequence[str], at: int, start: int) -> bool:
     """Whether no landmark stands behind word `at`: "of" leads on to the whole, "on the rim of a cup"."""
-    leads = at > start and (words[at - 1] in ("a", "an", "the") or (words[at] == "of" and words[at - 1] not in _HEADS))
-    return _breaks(words, at) and not (leads and words[at][0].isalnum())
+    leads = at > start and (
+        words[at] == "'s"
+        or words[at - 1] in ("a", "an", "the", "'s")
+        or (words[at] == "of" and words[at - 1] not in _HEADS)
+    )
+    return _breaks(words, at) and not (leads and words[at][0].isalnum() | (words[at] == "'s"))
 
 
 def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
@@ -280,8 +313,8 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             continue
         end, of = at + size, None
         while end < len(words) and end not in starts and end - at - size < _FAR and not _ends(words, end, at + size):
-            if end > at + size and words[end - 1] in HEADLESS and words[end] in NUMBERS:
-                # "on the other a muffin"
+            if end > at + size and words[end - 1] in HEADLESS | {"one", "another"} and words[end] in NUMBERS:
+                # "on the other a muffin", "on one a bun"
                 break
             end += 1
         if end in starts:
@@ -291,7 +324,17 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             end = of.end
         after = words[at + size] if at + size < len(words) else ""
         if of is None:
-            counts = after == "one" and not _breaks(words, at + size + 1) if at + size + 1 < len(words) else False
+            behind = words[at + size + 1 : at + size + 2]
+            if after == "each" and ENDS & {*behind}:
+                # "one on each side": which things there are for that is counted.
+                at += size
+                continue
+            headless = behind in (["a"], ["an"], ["the"])
+            counts = (
+                not headless and after == "one" and not _breaks(words, at + size + 1)
+                if at + size + 1 < len(words)
+                else False
+            )
             end = at + size + (after in PRONOUNS and not counts)
             behind = "".join(words[end + 2 : end + 3])
             headless = after == "the" and place != "between" and set(words[end + 1 : end + 2]) & HEADLESS

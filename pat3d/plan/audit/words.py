@@ -31,6 +31,10 @@ UNSURE = frozenset({
     "throw", "scale", "stand", "paper", "file", "clip", "slip", "letter", "bolt", "sign", "wheel", "robot",
 })  # fmt: skip
 """Names that are other words as often, or parts of a thing."""
+NAMES_BEHIND_ARTICLES = frozenset({"can", "scale", "bolt", "folder", "plane"})
+"""Those of them that name a thing where "a" or "the" stands before them."""
+GATHERINGS = frozenset({"bunch", "pair", "set", "row", "line", "level", "heap"})
+"""Words of which the plural too counts what stands behind it."""
 SHADES = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "warm", "cool", "rich", "muted"})
 ADJECTIVES = frozenset({
     "small", "large", "big", "little", "tiny", "huge", "round", "square", "tall", "short", "long", "wide", "thin",
@@ -85,6 +89,7 @@ REPEATS = frozenset({
 """Words by which there are more of a thing than its name's number says."""
 FORMED = frozenset({"row", "rows", "stack", "stacks", "pile", "piles", "heap"})
 """Those of them behind which the number of one such form may stand: "a stack of four books"."""
+SHAPES_OF_STACKS = frozenset({"tower", "towers", "stack", "stacks", "pile", "piles", "column", "columns"})
 SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respectively", "remaining", "several"}
 """Words by which likes are told from one another."""
 SIDES = frozenset({"left", "right", "front", "back"})
@@ -101,6 +106,10 @@ PARTS: dict[str, frozenset[str]] = {
 CLOSED = frozenset({"dresser", "cabinet", "fridge", "refrigerator", "microwave", "oven", "toaster oven", "wardrobe",
                     "dishwasher", "washing machine", "dryer", "drawer", "cupboard", "freezer"})  # fmt: skip
 """What things are in when they are in it: to be on it is something else."""
+HOLLOW = frozenset({"bowl", "cup", "mug", "glass", "pot", "pan", "jar", "vase", "basket", "box", "bucket", "bin",
+                    "crate", "beaker", "pitcher", "container", "tray", "plate", "jug", "saucepan", "case",
+                    "bag"})  # fmt: skip
+"""Last words of nouns of what holds things, and looks another when it is empty."""
 FLOOR = frozenset({"floor", "ground", "grass", "carpet"})
 """Words that say where something is that nothing carries."""
 LEADING = frozenset({
@@ -113,12 +122,20 @@ FINITE = frozenset({
     "sat", "stood", "lay",
 })  # fmt: skip
 """Verbs that say where the subject of a clause is."""
+HAS = frozenset({"has", "have", "holds", "hold", "contains", "contain", "carries", "carry", "supports", "bears"})
+"""Verbs that say what the subject of a clause has."""
 POSED = FINITE | frozenset({
     "sitting", "standing", "lying", "resting", "placed", "located", "positioned", "situated", "set", "laid", "seated",
     "hanging", "leaning", "perched", "balanced", "displayed", "arranged", "just", "right", "directly", "also",
     "still", "now", "immediately", "neatly", "all", "both", "upright", "open", "closed",
 })  # fmt: skip
 """Words between what is somewhere and the word that says where."""
+SHARED = frozenset({"split", "divided", "shared", "distributed", "evenly", "equally", "spread"})
+"""Words before a "between" that says in what things are."""
+FALLEN = frozenset({"fallen", "rolled", "dropped", "slid", "slipped", "spilled", "tumbled", "fell"})
+"""Words before "out of" and "off" of what is not there any more."""
+SPREAD = frozenset({"strewn", "spread", "scattered", "sprawled", "littered"})
+"""Words before an "across" that says on what things are."""
 REQUESTS = frozenset({"give", "hand", "pass", "bring", "fetch", "show", "get", "take", "move", "put", "pick"})
 """Words with which something is asked for."""
 TOGETHER = tuple(tuple(words.split()) for words in (
@@ -166,7 +183,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "far": ("far from", "far away from", "away from"),
         "hanging": ("hanging from", "hangs from", "hang from", "hanging on", "hangs on", "suspended from", "hung from"),
         "holding": ("holding", "holds", "hold", "contains", "containing", "contain", "carries", "carry", "carrying",
-                    "supports", "supporting", "wearing", "wears", "bearing", "bears", "filled with",
+                    "supports", "supporting", "held", "wearing", "wears", "bearing", "bears", "filled with",
                     "full of", "topped with", "topped by", "covered by", "occupied by"),
         "with": ("with", "has", "have", "surrounded by", "surrounded with", "flanked by", "bordered by"),
         "from": ("from", "out of", "off", "off of"),
@@ -203,11 +220,15 @@ being has have had do does of to at by in on with for from into onto up down out
 consists consisting surround surrounds encircle encircles include includes
 stack pile top middle center centre edge corner end left right front back first second third last nothing showing
 complete featuring including objects items things everything others exactly about well together somewhere what shown
-seen should must need i'd give following features color immediate amidst belongs goes go upside upright head facing
+seen should must need i'd give following features color immediate amidst belongs belong leave keep needs need goes go
+upside upright head facing
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like want see imagine show create make corners
+like several animals want see imagine show create make build corners he she they namely whereas itself themselves
+himself herself now still
+already image possible sure ensure find finds generate remaining
+yesterday today currently simply form forms forming appears appear x count slightly
 """
 _POSTURES = """
 hidden else cover
@@ -215,13 +236,14 @@ sits sit sat sitting stands stand stood standing lies lie lay laid lying laying 
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 served scattered spread kept stored wedged tucked
 stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced
-flank flanks share shares fill fills
+flank flanks share shares fill fills sandwiched perches split evenly equally divided distributed
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """
 _DEEDS = """
-unload empty organize sort select identify remove retrieve return pack gather clean bring drop add give turn complete
+moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean
+bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
-robot robotic gripper away back close pass hand throw putting placing stacking
+robot robotic gripper away back close pass hand throw putting placing stacking relocate reposition shift drag
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

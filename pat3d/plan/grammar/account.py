@@ -39,7 +39,12 @@ def words_left(chunk: Chunk) -> list[str]:
         return []
     known = _names(phrase) | {word for word, head in pairwise(chunk.words) if grid_size([word, head])}
     said = (phrase.modifiers, phrase.superlative)
-    return [word for word in chunk.words if not (_plain(word) or known & {word, *singulars(word)} or _told(word, said))]
+    halved = {"half"} if "dozen" in chunk.words else set[str]()
+    return [
+        word
+        for word in chunk.words
+        if not (_plain(word) or word in halved or known & {word, *singulars(word)} or _told(word, said))
+    ]
 
 
 def _plain(word: str) -> bool:

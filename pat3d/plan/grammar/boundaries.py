@@ -161,7 +161,10 @@ class Boundaries:
 
     def _coordination(self, run: list[Token], at: int) -> int | None:
         """The token to go on from when the mark or "and" at `at` joins two modifiers of one head; None otherwise."""
-        if not run:
+        if not run or any(
+            self._nouns.match([token.text for token in run[-size:]]) for size in (2, 3) if size <= len(run)
+        ):
+            # "A wine glass and glass cup": the first is named.
             return None
         if not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
             # "a hefty, red-painted box": what is no noun and stands before a comma and a modifier describes.

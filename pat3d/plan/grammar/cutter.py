@@ -13,7 +13,7 @@ from pat3d.plan.grammar.chunks import MAX_CHUNKS, Chunk, Sentence
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import LINKS, LONGEST_LINK, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
-from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_marked, is_modifier, read_modifiers
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_colour_word, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import sense
 
@@ -99,6 +99,7 @@ class Cutter(Asides):
             follower in (*lexicon.COPULAS, "of", "and", "or")
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
+            or is_marked(follower)
         )
         of_them = follower == "of" and self._word(2) in (*lexicon.PRONOUNS, "these", "those")
         if word in ("each", "both", "all") and of_them:
@@ -114,6 +115,8 @@ class Cutter(Asides):
             self._made.chunks[-1] = replace(last, phrase=replace(last.named, each=True))
             self._read.add(self._at)
             self._at += 1
+            return None
+        if word == "each" and self._of_owner():
             return None
         if word in ("each", "both", "all") and not of_each and (finite or (alone and self._last is not None)) and not (
             word != "each" and (follower == "of" or self._tokens[self._at + 1].mark)
@@ -169,6 +172,23 @@ class Cutter(Asides):
             # "a bowl of cereal and milk"
             self._made.unread.append(self._word(1))
             self._at += 2
+
+    def _of_owner(self) -> bool:
+        """Read the "each" behind "two plates hold a bun and a pear" and "two piles of three books": of every one."""
+        chunks, at = self._made.chunks, len(self._made.chunks) - 1
+        if not self._tokens[self._at + 1].mark or at < 0 or chunks[at].kind != "noun":
+            return False
+        formed = chunks[at].named.chains > 1
+        while at > 0 and chunks[at].kind in ("noun", "joint"):
+            at -= 1
+        owner = chunks[at - 1].phrase if at and chunks[at].link is not None and chunks[at].relation.inverse else None
+        several = owner is not None and (owner.plural or (owner.count or 1) > 1)
+        if several and owner is not None:
+            chunks[at - 1] = replace(chunks[at - 1], phrase=replace(owner, each=True))
+        if several or formed:
+            self._read.add(self._at)
+            self._at += 1
+        return several or formed
 
     def _joined(self, key: tuple[str, ...]) -> None:
         """Read "along with two plates"; of "(is) in the sink along with two plates" these are in the sink too."""
@@ -334,6 +354,13 @@ class Cutter(Asides):
                 self._made.unread.append(read[0].words)
             self._at = read[1]
 
+    def _colours_go_on(self, ahead: int) -> bool:
+        """Whether a list of colours goes on to the end of the clause."""
+        while is_colour_word(self._word(ahead)) or self._word(ahead) == "and":
+            ahead += 1
+            ahead += self._word(ahead) == ","
+        return self._word(ahead - 1) != "," and self._tokens[self._at + ahead].mark
+
     def _quality(self) -> None:
         """Read "(is) plain white": modifiers without a noun."""
         start = self._at
@@ -350,13 +377,17 @@ class Cutter(Asides):
         size = 0
         while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
             if token.text in ("and", "or"):
-                if not is_modifier(self._word(size + 1)):
+                if not is_modifier(self._word(size + 1)) or link_at(self._tokens, self._at + size + 1):
                     break
             elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
                 break
             else:
                 words.append(token.text)
             size += 1
+            colours = words and all(is_colour_word(word) for word in words)
+            if colours and self._word(size) == "," and self._colours_go_on(size + 1):
+                # "are red, green and blue"
+                size += 1
         if {"as", "than", "like"} & set(words):
             last = max(at for at, word in enumerate(words) if word in ("as", "than", "like"))
             self._add("rel", last + 1, link=Link(manner="than", said=" ".join(words[: last + 1])))

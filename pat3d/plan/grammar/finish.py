@@ -13,7 +13,7 @@ from pat3d.plan.grammar.postures import is_held, kind_of, stands_on_edge
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Edge, Group, Item, Sided, World
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
-from pat3d.scene.relations import GROUND, LateralKind, Relation
+from pat3d.scene.relations import GROUND, RELATION_WORDS, LateralKind, Relation
 
 _ORDER = {
     "left": (0, 0), "one": (0, 0), "centre": (0, 1), "right": (0, 2), "other": (0, 2), "front": (1, 0), "back": (1, 2),
@@ -145,6 +145,9 @@ def _side_alone(world: World, told: Sided) -> None:
     if implied:
         world.beside(told.items, kind, implied[:1])
     elif all(edge.parent not in told.items and edge.child not in told.items for edge in world.laterals):
+        if told.side in ("one", "other"):
+            world.note(f'not arranged: "{told.items[0].group.words}" at one end or side')
+            return
         where = kind.removesuffix("_of").replace("_", " ")
         world.note(f'"{told.items[0].group.words}" ({where}): there is nothing beside it that it could be {where} of.')
 
@@ -284,7 +287,7 @@ def _note_lift(world: World, edge: Edge, pair: tuple[Item, Item]) -> None:
     lifted = [(said, meant) for said, meant in ((edge.child, pair[0]), (edge.parent, pair[1])) if said is not meant]
     if edge.weak or all(said.group is meant.group or meant.group.height > 1 for said, meant in lifted):
         return
-    told, (child, parent) = edge.kind.replace("_", " "), (f'"{item.group.words}"' for item in pair)
+    told, (child, parent) = RELATION_WORDS[edge.kind], (f'"{item.group.words}"' for item in pair)
     world.note(f'"{edge.child.group.words}" {told} "{edge.parent.group.words}": {child} is {told} {parent}.')
 
 
@@ -305,7 +308,7 @@ def _laterals(world: World, names: dict[Item, str]) -> list[Relation]:
         if pair is None:
             if not edge.weak:
                 world.note(
-                    f'"{edge.child.group.words}" {edge.kind} "{edge.parent.group.words}" is left out: '
+                    f'"{edge.child.group.words}" {RELATION_WORDS[edge.kind]} "{edge.parent.group.words}" is left out: '
                     "one carries the other."
                 )
             continue

@@ -139,9 +139,9 @@ DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"}
 COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful",
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
-    "kinds", "types", "bit", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host", "smattering",
-    "scattering", "flock", "herd", "swarm"})  # fmt: skip
-ROWS = frozenset({"row", "line", "series"})
+    "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
+    "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""
@@ -159,6 +159,9 @@ SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer
 PLURAL_ONLY = frozenset({"scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones",
     "pants", "jeans", "shorts", "trousers", "binoculars", "goggles", "clippers", "pajamas", "shears"})  # fmt: skip
 """One object with a plural name; "a pair of" them is one."""
+
+BUNCHES = frozenset({"grapes", "flowers", "bread", "toast", "cheese", "lettuce", "broccoli", "celery", "garlic"})
+"""Names of one object that are said of an amount: "some grapes" are a bunch, "some bread" is a loaf."""
 
 GENERICS: dict[str, tuple[str, ...]] = {
     "fruit": ("apple", "orange", "banana", "lemon", "pear"),
@@ -282,6 +285,9 @@ COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler",
     "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
     "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
 """Vessels that, upside down, stand around what they cover."""
+MAIN_DISHES = ("burger", "sandwich", "steak", "fish", "hot dog", "sausage", "pizza", "burrito")
+SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag")
+"""What lies beside a main dish that is "with" it."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
@@ -403,6 +409,14 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
     "filled empty", "used unused", "folded unfolded", "sharp blunt", "smooth rough", "opened closed", "hot iced",
 ))  # fmt: skip
 """Looks of which a thing has one."""
+PARTS_OF: dict[str, tuple[str, ...]] = {
+    "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
+    "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
+    "keyboard": ("laptop",), "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
+    "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
+    "stand": ("globe", "monitor"),
+}  # fmt: skip
+"""What the things after it have as a part, though there are things of that name too."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,

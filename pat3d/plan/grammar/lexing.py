@@ -20,6 +20,11 @@ _IRREGULAR = {
     "men": "man", "women": "woman", "people": "person", "dice": "die", "cacti": "cactus", "wives": "wife",
     "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman",
 }  # fmt: skip
+_SPELLED = {
+    word: str(number) for number, word in enumerate(
+        ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"), 1)
+}  # fmt: skip
+"""Numbers that stand in brackets behind their digits."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +52,9 @@ def normalise(prompt: str) -> str:
     text = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", text)
     text = re.sub(r"\b(\d{1,3}) ?[x\u00d7] (?=[^\W\d_])", r"\1 ", text)
     text = re.sub(r"(?<=[^\W\d_]) ?\(\d{1,3}\)", "", text)
+    text = re.sub(
+        r"\b(\d{1,2}) \(([a-z]+)\)", lambda found: found[1 if _SPELLED.get(found[2]) == found[1] else 0], text
+    )
     return re.sub(r"[^\S\n]+", " ", text.translate({0x2018: "'", 0x2019: "'", 0x201C: '"', 0x201D: '"'}))
 
 

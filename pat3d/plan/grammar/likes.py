@@ -102,8 +102,8 @@ def _known_like(
         return None
     n, one = told[-1]
     alike = [other for _, other in named if other.noun == one.noun]
-    apart = all(not _several(other) and _property(other.modifiers) == "size"
-                and not _value(other.modifiers) & _value(phrase.modifiers) for other in alike)  # fmt: skip
+    apart = all(_property(other.modifiers) == "size" and not _value(other.modifiers) & _value(phrase.modifiers)
+                for other in alike)  # fmt: skip
     return (n, one) if apart else None
 
 

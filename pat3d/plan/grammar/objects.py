@@ -54,6 +54,8 @@ class Maker:
             pyramid=phrase.pyramid, proxy=proxy,
         )  # fmt: skip
         group.items = [Item(group=group) for _ in range(count)]
+        if count > 1 and phrase.said in ("grape", "grapes"):
+            world.note(f'"{phrase.words}": every one of the {count} is made as a bunch.')
         if phrase.left_out:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:
@@ -300,9 +302,15 @@ def tell_colours(world: World, group: Group, told: Modifiers) -> None:
     """Read "blocks, featuring red, blue and green pieces"."""
     shared = told.palette or told.colours
     group.modifiers = group.modifiers.marked_as(told)
-    if not shared:
-        return
     count = len(group.items)
+    coloured = (
+        count > 1
+        and not group.modifiers.palette
+        and all(item.colours or group.modifiers.colours for item in group.items)
+    )
+    if not shared or coloured:
+        # "Four red and four blue blocks: sort the blocks by colour": they have theirs.
+        return
     if count == 1:
         group.modifiers = replace(group.modifiers, colours=(*group.modifiers.colours, *shared))
         return

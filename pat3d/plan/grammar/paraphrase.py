@@ -23,15 +23,20 @@ from pat3d.plan.grammar.displaced import (
     in_place,
     stateless,
 )
+from pat3d.plan.grammar.enumerated import enumerated
+from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
+from pat3d.plan.grammar.outcomes import with_articles
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
+from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
+from pat3d.plan.grammar.towers import from_below, of_things
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _MIDDLES = ("centre", "center", "middle")
@@ -48,10 +53,27 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more",
     "so that it is", "so that it stands", "so that they are", "so that they stand",
+    "seen from above", "viewed from above", "seen from the side", "seen from the front", "as seen from above",
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
-_MANY_COLOURED = frozenset({"different", "differently", "colored", "coloured", "colorful", "colourful"})
+_MANY_COLOURED = frozenset(
+    {
+        "rainbow-coloured",
+        "rainbow-colored",
+        "rainbow",
+        "multicolored",
+        "multicoloured",
+        "different",
+        "differently",
+        "colored",
+        "coloured",
+        "colorful",
+        "colourful",
+    }
+)
+_NUMBER_WORDS = {count: word for word, count in lexicon.NUMBERS.items() if count > 1 and word.isalpha()
+                 and word not in ("both", "pair", "couple", "trio", "dozen")}  # fmt: skip
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
@@ -61,16 +83,18 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
+    tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
+    tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(tokens, nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(_kinds(tokens, nouns), nouns), nouns), nouns))
+    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
@@ -123,12 +147,18 @@ def _in_colours(tokens: Sequence[Token], colours: Sequence[Token], nouns: Nouns)
     """`tokens`, which end in "three boxes of different colors", as "three red, blue and green boxes"; else empty."""
     words = [token.text for token in tokens]
     end = len(words) - 3 if words[-3:-1] == ["of", "different"] else len(words)
-    size = next((n for n in (3, 2, 1) if n < end and nouns.match(words[end - n : end])), 0)
+    size = next((n for n in (3, 2, 1) if n <= end and nouns.match(words[end - n : end])), 0)
     first = end - size
-    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in ("differently", "different")):
+    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in _MANY_COLOURED):
         first -= 1
     number = words[first - 1] if first else ""
-    if not size or str(lexicon.NUMBERS.get(number, number)) != str(len(colours)):
+    told = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
+    alone = not first or tokens[first - 1].mark or number in ("the", "stack", "pile", "place", "put", "and", "with")
+    if size and not told and alone and singulars(words[end - 1]) and len(colours) in _NUMBER_WORDS:
+        # "blocks (red, blue, green)"
+        number_word = replace(tokens[end - size], text=_NUMBER_WORDS[len(colours)])
+        return _in_colours([*tokens[:first], number_word, *tokens[first:]], colours, nouns)
+    if not size or told != len(colours):
         return []
     listed = [token for colour in colours for token in (colour, replace(colour, text=",", mark=True))][:-1]
     kept = [token for token in tokens[first : end - size] if token.text not in _MANY_COLOURED]
@@ -153,6 +183,15 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
     words = [token.text for token in tokens]
+    for at in range(1, len(words) - 6):
+        comma = at + 2 + link_at(tokens, at + 1) if words[at] == "and" else at
+        second = next((n for n in range(comma + 3, len(words) - 2) if tokens[n].mark), 0)
+        on_it = words[comma] == "," and words[comma - 1] in ("it", "them") and link_at(tokens, comma + 1)
+        if on_it and second and words[second] == "," and words[second + 1] in ("a", "an", "the"):
+            # "and on it, next to a lamp, a clock": on it a clock next to a lamp
+            end = next(n for n in range(second + 1, len(words)) if tokens[n].mark)
+            if not any(link_at(tokens, n) for n in range(second + 1, end)):
+                return [*tokens[:comma], *tokens[second + 1 : end], *tokens[comma + 1 : second], *tokens[end:]]
     for at in range(1, len(words) - 4):
         size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
         comma = at + 3 + size
@@ -160,7 +199,8 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
             continue
         end = next(n for n in range(comma + 1, len(tokens)) if tokens[n].mark)
         named = tokens[comma + 1 : end]
-        if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
+        plain = (each.text == "of" or not link_at(named, n) for n, each in enumerate(named))
+        if all(plain) and not any(each.text in _FINITE or each.text == "and" for each in named):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
     return list(tokens)
 
@@ -261,26 +301,6 @@ def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
                 size, head = size + 1, head[:-1]
             return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
-    return list(tokens)
-
-
-def _kinds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "three cans: soup, tuna and corn" as "a soup can, a tuna can and a corn can"."""
-    words = [token.text for token in tokens]
-    for colon in (n for n in range(2, len(words)) if words[n] == ":"):
-        count, noun = lexicon.NUMBERS.get(words[colon - 2], 0), tokens[colon - 1]
-        end = next((n for n in range(colon, len(words)) if tokens[n].mark and words[n] not in (",", ":")), len(words))
-        inside = list(tokens[colon + 1 : end])
-        kinds = [token for token in inside if token.text not in (",", "and")]
-        single = next((guess for guess in singulars(noun.text) if nouns.match([guess])), None)
-        if not 2 <= count == len(kinds) or single is None or "and" not in words[end - 2 : end]:
-            continue
-        if all(nouns.match([kind.text, single]) for kind in kinds):
-            article = replace(tokens[colon - 2], text="a")
-            for kind in kinds:
-                at = inside.index(kind)
-                inside[at : at + 1] = [article, kind, replace(noun, text=single)]
-            return [*tokens[: colon - 2], *inside, *tokens[end:]]
     return list(tokens)
 
 

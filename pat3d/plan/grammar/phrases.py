@@ -139,7 +139,9 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
-        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+        whole = phrase.kind == "object" and bool(phrase.noun) and not phrase.plural
+        if flags.get("vague") and whole and (phrase.said in lexicon.PLURAL_ONLY or phrase.said in lexicon.BUNCHES):
+            # "Some scissors" are one, and "a few grapes" one bunch.
             count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
@@ -331,7 +333,7 @@ class PhraseReader:
         if head in lexicon.PICTURES:
             return None
         rows = any(word in lexicon.ROWS for word in singular)
-        if rows and plural and head != "series":
+        if rows and plural:
             number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
             return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip

@@ -103,7 +103,7 @@ class GrammarPlanner:
         check_language(text)
         tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        told = [clause for sentence in sentences(tokens) for clause in self._clauses(text, sentence)]
+        told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         world.notes += [f'not modelled: "{said}"' for said in beside_robot]

@@ -67,13 +67,16 @@ class Plausible:
         if self.floor(child) and not self.is_a(child, ("floor cushion", "stool", "chair", "table", "coffee table")):
             return 2.5 if not self.is_a(parent, lexicon.THIN[:3]) else 1.2
         if self.floor(child):
-            return 0.4 if self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
+            seated = self.is_a(child, ("floor cushion",)) and self.is_a(parent, lexicon.SEATS)
+            return 0.4 if seated or self.is_a(parent, ("rug", "mat", "carpet", "bed")) else 2.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
             return 0.1 if self._fits_dish(child) else 0.9
         if self.is_a(parent, _SOFT) and self.hollow(child) and not self.is_a(child, lexicon.LARGE_VESSELS):
             return 0.7
         if self.level(parent):
             return 0.0
+        if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
+            return 1.5
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
         if self.is_a(parent, _SUPPORTING):
@@ -96,11 +99,11 @@ class Plausible:
             if child != parent and self.is_a(parent, lexicon.BOWLS):
                 return 1.3 if self._vessel(child) or self.is_a(child, lexicon.LEVEL, lexicon.NOT_ON_DISH) else 0.0
             return 0.0
-        if self.closet(parent):
+        if self.closet(parent) or self.is_a(parent, tuple(lexicon.OPENED)):
             return 0.3
         if self.level(parent):
             return 0.5 + self.on(child, parent)
-        return 1.7
+        return 2.0 if self.level(child) else 1.7
 
     def beside(self, child: str, parent: str) -> float:
         """Of the two standing next to each other."""
@@ -145,6 +148,8 @@ class Plausible:
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
+        if self.is_a(child, lexicon.SEATS[-4:]) and self.is_a(parent, lexicon.SEATS[:6]):
+            return 0.1
         if self.floor(child):
             return 0.7
         inside = self.within(child, parent) if self.hollow(parent) or self.closet(parent) else 9.0

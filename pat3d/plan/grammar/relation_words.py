@@ -12,6 +12,12 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
+_PRINTED = frozenset(
+    {"printed", "engraved", "embroidered", "etched", "inscribed", "embossed", "patterned", "emblazoned"}
+)
+_ORNATE = frozenset({"decorated", "adorned"})
+_GARNISHED = ("cake", "cupcake", "pie", "pizza", "pancake", "waffle", "tree", "bread", "salad", "ice cream")
+"""What is decorated by what lies or hangs on it, besides furniture."""
 _LINED = frozenset({"row", "rows", "line", "lined", "side"})
 """Words of what stands in a line."""
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
@@ -26,6 +32,8 @@ class RelationWords(Cursor):
     def _relation(self) -> bool:
         """Read the longest relation, side or form that begins here, if one does."""
         if self._shape() or self._several() or self._chain():
+            return True
+        if self._word(0) in _PRINTED and self._word(1) in ("with", "by") and self._ornament(2):
             return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
@@ -79,6 +87,8 @@ class RelationWords(Cursor):
 
     def _link(self, key: tuple[str, ...], size: int) -> bool:
         link = LINKS[key]
+        if key[0] in _ORNATE and self._ornament(size):
+            return True
         if key == ("against",) and any(
             chunk.link and chunk.link.says == "leaning_against" for chunk in self._made.chunks
         ):
@@ -112,6 +122,22 @@ class RelationWords(Cursor):
         else:
             self._add("have" if inverse else "rel", size, link=link)
         return True
+
+    def _ornament(self, size: int) -> bool:
+        """Leave "decorated with birds", `size` words up to the birds: on a vase they are painted, on a table put."""
+        last = self._last
+        if last is None or last.phrase is None or last.phrase.kind != "object":
+            return False
+        stands = self._nouns.of_class(last.phrase.noun, (*lexicon.FLOOR, *lexicon.SEATS, *_GARNISHED))
+        level = self._nouns.of_class(last.phrase.noun, lexicon.LEVEL)
+        dish = self._nouns.of_class(last.phrase.noun, lexicon.DISHES)
+        shown = self._phrases.read(self._at + size)
+        if shown is None or ((stands or (level and not dish)) and self._word(0) not in _PRINTED):
+            return False
+        end = shown[1]
+        while self._tokens[end].text == "and" and (more := self._phrases.read(end + 1)) and not more[0].determined:
+            end = more[1]
+        return self._leave(end - self._at)
 
     def _shape(self) -> bool:
         """Read "in a circle", "in a grid".
@@ -160,7 +186,7 @@ class RelationWords(Cursor):
         count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
         kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
         kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
-        if preposition not in ("in", "into") or count < 1 or kind is None:
+        if preposition not in ("in", "into", "as") or count < 1 or kind is None:
             return False
         tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
         of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())

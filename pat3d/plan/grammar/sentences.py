@@ -9,20 +9,25 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.links import FINITE, LINKS
+from pat3d.plan.grammar.modifiers import is_colour_word
 from pat3d.plan.grammar.unmade import base_verb
+from pat3d.plan.grammar.vocabulary import Nouns
 
 CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 """Words that open what has to be before something is done."""
 
 
-def sentences(tokens: Sequence[Token]) -> list[list[Token]]:
+def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    return _reordered(_conditions(_labelled(_cut(tokens))))
+    return _reordered(_conditions(_labelled(_cut(tokens, nouns))))
 
 
-def _cut(tokens: Sequence[Token]) -> list[list[Token]]:
-    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other."""
+def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
+    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other.
+
+    So is "The left box holds a ball, the right box is empty", where the right box is not held.
+    """
     made: list[list[Token]] = [[]]
     for at, token in enumerate(tokens):
         words = [each.text for each in tokens[at + 1 : at + 5]]
@@ -30,10 +35,29 @@ def _cut(tokens: Sequence[Token]) -> list[list[Token]]:
         clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
         told = token.text == "," and any(each.text in FINITE for each in made[-1])
         begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
-        made[-1].append(replace(token, text=".") if begins else token)
+        begins = begins or (_tells_state(tokens, at, nouns) and any(_holds(each) for each in made[-1]))
+        made[-1].append(replace(token, text=".", mark=True) if begins else token)
         if token.text == "." or begins:
             made.append([])
     return [sentence for sentence in made if len(sentence) > 1]
+
+
+def _holds(token: Token) -> bool:
+    link = LINKS.get((token.text,))
+    return link is not None and link.finite and link.inverse
+
+
+def _tells_state(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether "the right box is empty" follows a comma or "and" at token `at`."""
+    first = at + 1 + (tokens[at].text == "," and tokens[at + 1].text in ("and", "but", "while"))
+    words = [token.text for token in tokens[first : first + 7]]
+    verb = next((n for n, word in enumerate(words) if word in ("is", "are")), 0)
+    if tokens[at].text not in (",", "and", "but", "while") or verb < 2 or verb > len(words) - 3:
+        return False
+    named = words[0] in lexicon.DETERMINERS and nouns.match([words[verb - 1]]) is not None
+    plain = not any(tokens[n].mark or link_at(tokens, n) for n in range(first, first + verb))
+    state = words[verb + 1] == "empty" or is_colour_word(words[verb + 1])
+    return named and plain and state and tokens[first + verb + 2].mark
 
 
 def _goes(tokens: Sequence[Token], at: int) -> bool:

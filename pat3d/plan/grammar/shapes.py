@@ -50,6 +50,12 @@ _BUILDING = frozenset({"build", "make", "create", "construct", "form", "assemble
 _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assembled", "consisting"})
 
 
+_BUILDING = frozenset({"make", "build", "form", "create", "construct", "assemble", "arrange", "please"})
+_FORMED = frozenset({"pyramid", "tower", "stack", "pile", "row", "line", "column"})
+_OPENING = 6
+"""Words up to what is built: "please build a tall tower"."""
+
+
 def shape_said(word: str) -> str | None:
     """The unplanned shape that `word` names, plural or singular, or None."""
     return next((each for each in (word, *singulars(word)) if each in UNPLANNED), None)
@@ -96,8 +102,15 @@ def of_what(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a tower made of blocks" as "a tower of blocks"."""
     kept: list[Token] = []
     at = 0
+    building = tokens[0].text in _BUILDING
     while at < len(tokens):
         before = kept[-1].text if kept else ""
+        formed = building and before in _FORMED and kept[-2].text in ("a", "one") and len(kept) < _OPENING
+        if formed and tokens[at].text in ("with", "from", "using") and tokens[at + 1].text not in lexicon.PRONOUNS:
+            # "Make a pyramid with six cans"
+            kept.append(replace(tokens[at], text="of"))
+            at += 1
+            continue
         head = shape_said(before) or next(
             (one for one in (before, *singulars(before)) if one in lexicon.STACK_NOUNS), ""
         )

@@ -1,0 +1,99 @@
+"""What several things are said to have: each of them one of its own, all together one, or one for each in turn.
+
+"Both trays hold a burger" is a burger on each, "two bricks carry a plank" one plank across the two, "three bowls
+contain an apple, a pear and a fig" one of these in every bowl. A number that is said is that of all ("two baskets hold
+four apples"), unless "both", "all" or "each" says it of every one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.objects import multiply, recount
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.relating import Relating
+from pat3d.plan.grammar.world import Group, Item, World
+from pat3d.scene.relations import SUPPORT_KINDS
+
+Share = Literal["each", "in turn", "together", "as counted"]
+_SPREAD = ("blanket", "rug", "carpet", "sheet", "tablecloth")
+"""What lies over several things at once."""
+_ALL = frozenset({"both", "all"})
+
+
+def says_all(phrase: Phrase) -> bool:
+    """Whether `phrase` speaks of every one of several: "both trays", "all three cups"."""
+    return phrase.words.lower().split()[:1] in ([word] for word in _ALL)
+
+
+def share(
+    world: World, link: Link, owners: Sequence[Item], children: Sequence[Item], *, all_of: bool, having: bool
+) -> Share:
+    """How the `children`, named once for all `owners`, are had by them.
+
+    Args:
+        world: what is there.
+        link: what has them, or where they are at their owners.
+        owners: what they are said of.
+        children: what is said to be had.
+        all_of: the sentence says it of "both", "all" or "each" of the owners.
+        having: the owners have, hold or carry them; otherwise the children are said to be on or in them.
+    """
+    carriers, groups = world.tops(owners), _groups(children)
+    known = any((group.phrase.definite and not group.phrase.possessive) or group.multiplied for group in groups)
+    whole = not known and groups and set(children) == {item for group in groups for item in group.items}
+    one_heap = any(group.heap for group in _groups(owners))
+    if len(carriers) < 2 or one_heap or not whole or set(groups) & set(_groups(owners)) or link.manner == "between":
+        return "as counted"
+    held = link.kind == "in" or (link.kind is None and world.containment(owners[0]) == "in")
+    spread = not having and world.is_a(children[0], _SPREAD)
+    if link.says == "across" or (not held and len(children) == 1 and (world.is_a(children[0], lexicon.LONG) or spread)):
+        return "together"
+    if all_of:
+        return "each"
+    beside = link.manner == "place" and link.kind not in SUPPORT_KINDS
+    if not having or beside or not any(map(_single, groups)):
+        return "as counted"
+    return "in turn" if len(groups) == len(carriers) > 2 and all(map(_single, groups)) else "each"
+
+
+def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> list[Item]:
+    """As many of `children` for each of `owners`; of what is named by a bare plural two at least."""
+    several = len(world.tops(owners))
+    for group in _groups(children):
+        if group.phrase.plural and not group.counted and group.height == 1:
+            recount(world, group, max(2, -(-len(group.items) // several)) * several)
+            group.multiplied = True
+            world.note(f'"{group.words}": {len(group.items)} assumed.')
+        else:
+            multiply(world, group.items, several)
+    return all_like(children)
+
+
+def hand_out(relating: Relating, link: Link, owners: Sequence[Item], children: Sequence[Item], how: Share) -> bool:
+    """Relate `children`, had "together" or "in turn", to their `owners`; False where they are not had so."""
+    world = relating.world
+    if how == "together":
+        relating.relate(list(children), Link(kind="on"), list(owners))
+    elif how == "in turn":
+        for owner, child in zip(world.tops(owners), children, strict=True):
+            relating.hold(link, [owner], [child])
+        listed = ", ".join(f'"{child.group.words}"' for child in children)
+        world.note(f'{listed} are read as one for each of "{owners[0].group.words}".')
+    return how in ("together", "in turn")
+
+
+def all_like(items: Sequence[Item]) -> list[Item]:
+    """All objects that were named with one of `items`."""
+    return [item for group in _groups(items) for item in group.items]
+
+
+def _groups(items: Sequence[Item]) -> list[Group]:
+    return list(dict.fromkeys(item.group for item in items))
+
+
+def _single(group: Group) -> bool:
+    return len(group.items) == 1 and not group.counted and group.phrase.determined

@@ -1,0 +1,105 @@
+"""Verbs that a later clause leaves out: "one holds a pear, the other two figs" with "the other holds two figs".
+
+What stands where the verb would be is told from a longer name by what comes next: "the other two figs" is no verb's gap
+where figs were named before. So the verb is put back before a sentence is cut into phrases.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import FINITE, LINKS
+from pat3d.plan.grammar.modifiers import ORDINALS, is_colour_word, is_modifier
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_JOINTS = frozenset({",", "and", "while", "but", "whereas", ":"})
+_ONES = frozenset({"one", "ones"})
+_TOLD = lexicon.POSITIONS.keys() | lexicon.LEVELS.keys() | ORDINALS | {"other", "others", "last", "former", "latter"}
+"""Words between "the" and a noun that is not said."""
+_OF_ONE = {"have": "has", "hold": "holds", "contain": "contains", "carry": "carries", "bear": "bears"}
+_ARTICLES = frozenset({"a", "an", "some", "the"})
+
+
+def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of one sentence with the verb in every clause that leaves it out."""
+    made: list[Token] = []
+    verb: Token | None = None
+    at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        if token.text in FINITE and _has_object(tokens, at):
+            verb = token
+        made.append(token)
+        at += 1
+        size = _subject(tokens, at, nouns) if verb is not None and token.text in _JOINTS else 0
+        if size and verb is not None and _gap(tokens, at, size, nouns):
+            one = tokens[at + size - 1].text not in ("others", "ones")
+            made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=_OF_ONE.get(verb.text, verb.text)
+                     if one else verb.text)]  # fmt: skip
+            at += size
+    return made
+
+
+def _has_object(tokens: Sequence[Token], at: int) -> bool:
+    """Whether the verb at token `at` has its object behind it, and no other verb or place."""
+    link = LINKS.get((tokens[at].text,))
+    return link is not None and link.finite and link.inverse and link.manner in ("with", "hold")
+
+
+def _subject(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
+    """The words of "the other", "the second one", "a blue one", "the right drawer" at token `at`; 0 for none."""
+    words = [token.text for token in tokens[at : at + 5]]
+    if words[:1] == ["another"]:
+        return 1 + (words[1] in _ONES)
+    if words[0] not in ("the", "a", "an") or len(words) < 4:
+        return 0
+    if words[1] in _TOLD and (words[0] == "the" or words[1] in ORDINALS):
+        head = words[2] in _ONES or (_named(tokens, at, words[2]) and nouns.match([words[2]]) is not None)
+        return (2 + head) if head or words[0] == "the" else 0
+    if _describes(words[1]) and words[2] in _ONES:
+        return 3
+    noun = next((n for n, word in enumerate(words) if n and not _describes(word)), len(words))
+    behind = words[noun + 1 : noun + 2]
+    told = words[0] == "the" and behind and (behind[0] in ("a", "an") or _several(behind[0]))
+    return noun + 1 if told and nouns.match([words[noun]]) else 0
+
+
+def _describes(word: str) -> bool:
+    return is_colour_word(word) or is_modifier(word)
+
+
+def _gap(tokens: Sequence[Token], at: int, size: int, nouns: Nouns) -> bool:
+    """Whether an object stands right behind the subject of `size` words at token `at`, and no verb in its clause."""
+    behind, start = tokens[at + size], at + size
+    end = start
+    while not tokens[end].mark and tokens[end].text not in ("and", "while", "but", "whereas"):
+        if tokens[end].text in FINITE:
+            return False
+        end += 1
+    if end == start or behind.text in lexicon.PRONOUNS or link_at(tokens, start):
+        return False
+    lead = start
+    while lead < end and (tokens[lead].text in _ARTICLES or _several(tokens[lead].text) or tokens[lead].text == "one"):
+        lead += 1
+    named = [word for word in (token.text for token in tokens[lead:end]) if nouns.match([word])]
+    if not named:
+        return False
+    if behind.text in _ARTICLES:
+        return True
+    open_ended = tokens[start - 1].text not in _ONES
+    # "the other two cups", "the left books" are names where such things were named before.
+    return not (open_ended and _named(tokens, at, named[0])) and (_several(behind.text) or bool(singulars(named[0])))
+
+
+def _named(tokens: Sequence[Token], end: int, word: str) -> bool:
+    """Whether `word`, or the one thing or several of it, was named before token `end`."""
+    forms = {word, *singulars(word)}
+    return any(forms & {token.text, *singulars(token.text)} for token in tokens[:end])
+
+
+def _several(word: str) -> bool:
+    return (word in lexicon.NUMBERS and word not in ("one", "both")) or word.isdecimal()

@@ -1,0 +1,207 @@
+"""Stacks of which the sentence says who is below whom, as "a stack of a plate, a bowl and a cup", the lowest first.
+
+"From bottom to top: a plate, a bowl", "three blocks, the red one at the bottom, the blue one on top" and "a tower of
+blocks from top to bottom: red, blue" all say so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_UPWARDS = (("from", "bottom", "to", "top"), ("from", "the", "bottom", "to", "the", "top"), ("bottom", "to", "top"),
+            ("from", "the", "bottom", "up"), ("from", "bottom", "up"))  # fmt: skip
+_DOWNWARDS = (("from", "top", "to", "bottom"), ("from", "the", "top", "to", "the", "bottom"), ("top", "to", "bottom"),
+              ("from", "the", "top", "down"), ("from", "top", "down"))  # fmt: skip
+_LEVELS: dict[tuple[str, ...], int] = {
+    **dict.fromkeys(
+        [("at", "the", "bottom"), ("on", "the", "bottom"), ("at", "its", "base"), ("at", "the", "base")], 0
+    ),
+    **dict.fromkeys([("in", "the", "middle"), ("in", "between"), ("in", "the", "centre"), ("in", "the", "center")], 50),
+    **dict.fromkeys([("at", "the", "top"), ("on", "top"), ("on", "the", "top")], 100),
+}
+_JOINTS = frozenset({",", ":", "and", ";", "with", "then", "-"})
+_ARTICLES = frozenset({"the", "a", "an", "one"})
+_STACKS = frozenset({"stack", "tower", "pile", "column", "stacked", "piled"})
+
+_BUILT = frozenset({"stack", "tower", "pile", "column", "pyramid"})
+_MADE_OF = (("with",), ("which", "has"), ("that", "has"), ("made", "of"), ("built", "of"), ("built", "from"),
+            ("consisting", "of"), ("of",), ("has",), ("made", "from"), ("containing",))  # fmt: skip
+
+
+def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of one sentence, with a stack of which the order is said as a list from its lowest to its highest."""
+    words = [token.text for token in tokens]
+    found = _listed(tokens, words) or _levelled(tokens, words)
+    if found is None:
+        return list(tokens)
+    intro, parts = found
+    said = [token.text for token in intro]
+    if {"the", "and"} & set(said) or any(word in FINITE for word in said):
+        # What is there already is to be stacked, or is listed before.
+        return list(tokens)
+    noun, tail, count = _intro(intro, nouns)
+    headless = all(_headless(part, nouns) for part in parts)
+    if noun is not None and not headless and not _STACKS & set(said):
+        # "A box with a ball at the bottom and a cup on top"
+        return list(tokens)
+    named = [_named(part, noun, nouns) for part in parts]
+    if None in named or any(link_at(part, n) for part in parts for n in range(len(part))):
+        return list(tokens)
+    if count and count < len(parts):
+        return list(tokens)
+    lowest = [part for part in named if part is not None]
+    if count > len(parts) and noun is not None:
+        more = count - len(parts)
+        number = next(word for word, value in lexicon.NUMBERS.items() if value == more and word not in ("an", "single"))
+        lowest.insert(1, [replace(noun, text=number if more > 1 else "a"), replace(noun, text=_plural(noun, more))])
+    like = tokens[0]
+    a, stack, of = (replace(like, text=word, mark=False) for word in ("a", "stack", "of"))
+    listed: list[Token] = []
+    for at, part in enumerate(lowest):
+        if at:
+            last = at == len(lowest) - 1
+            listed.append(replace(part[0], text="and" if last else ",", mark=not last))
+        listed += part
+    opening = [*tail, replace(like, text="is", mark=False)] if tail and link_at(tail, 0) else []
+    return [*opening, a, stack, of, *listed, tokens[-1]]
+
+
+def of_things(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a tower with exactly three blocks" as "a tower of three blocks", and what is on top with it."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3):
+        if words[at] not in _BUILT:
+            continue
+        end = next((at + 1 + len(said) for said in _MADE_OF if tuple(words[at + 1 : at + 1 + len(said)]) == said), 0)
+        end += end and words[end] in ("exactly", "precisely")
+        if (
+            not end
+            or lexicon.NUMBERS.get(words[end], 1 if words[end].isdecimal() else 0) < 1
+            or words[end] in _ARTICLES
+        ):
+            continue
+        stop = next(n for n in range(end, len(words)) if tokens[n].mark or words[n] == "and" or link_at(tokens, n))
+        if not any(nouns.match([guess]) for guess in (words[stop - 1], *singulars(words[stop - 1]))):
+            continue
+        made = [*tokens[: at + 1], replace(tokens[at + 1], text="of"), *tokens[end:stop]]
+        top = next((n for n in range(stop, len(words)) if tuple(words[n : n + 3]) == ("at", "the", "top")
+                    or tuple(words[n : n + 2]) == ("on", "top")), 0)  # fmt: skip
+        size = 2 if top and words[top] == "on" else 3
+        upper = list(tokens[stop + 1 : top])
+        whole = top and words[stop] == "and" and not any(each.mark or each.text == "and" for each in upper)
+        if whole and words[top + size] != "of" and not any(link_at(upper, n) for n in range(len(upper))):
+            name = next((guess for guess in (*singulars(words[stop - 1]), words[stop - 1]) if nouns.match([guess])), "")
+            upper = [replace(each, text=name) if each.text == "one" and n else each for n, each in enumerate(upper)]
+            on_top = [replace(tokens[top], text=word) for word in ("on", "top")]
+            return [*made, replace(tokens[stop], text="with"), *upper, *on_top, *tokens[top + size :]]
+        return [*made, *tokens[stop:]]
+    return list(tokens)
+
+
+def _listed(tokens: Sequence[Token], words: Sequence[str]) -> tuple[list[Token], list[list[Token]]] | None:
+    """What stands before "from bottom to top:", and what is listed behind it, the lowest first."""
+    for at in range(len(words)):
+        for phrases, way in ((_UPWARDS, 1), (_DOWNWARDS, -1)):
+            size = next((len(p) for p in phrases if tuple(words[at : at + len(p)]) == p), 0)
+            if not size:
+                continue
+            parts = _parts(tokens[at + size : -1])
+            before = list(tokens[:at])
+            while before and before[-1].text in (":", ",", "-", "in", "order"):
+                before.pop()
+            if len(parts) > 1:
+                return before, parts[::way]
+    return None
+
+
+def _levelled(tokens: Sequence[Token], words: Sequence[str]) -> tuple[list[Token], list[list[Token]]] | None:
+    """What stands before "the red one at the bottom, the blue one on top", and these, the lowest first."""
+    end = len(tokens) - 1
+    ranked: list[tuple[int, list[Token]]] = []
+    starts = [0, *(at + 1 for at, word in enumerate(words[:-1]) if word in _JOINTS)]
+    first = end
+    for at, start in enumerate(starts):
+        stop = starts[at + 1] - 1 if at + 1 < len(starts) else end
+        part = list(tokens[start:stop])
+        if not part:
+            continue
+        key = next(
+            (key for key in _LEVELS if tuple(words[stop - len(key) : stop]) == key and len(part) > len(key)), None
+        )
+        if key is not None:
+            ranked.append((_LEVELS[key], part[: -len(key)]))
+            first = min(first, start)
+        elif ranked and words[start - 1] == "then":
+            ranked.append((ranked[-1][0] + 1, part))
+        elif ranked:
+            return None
+    levels = {level for level, _ in ranked}
+    if len(ranked) < 2 or len(levels) < len(ranked) or 0 not in levels:
+        return None
+    before = list(tokens[:first])
+    while before and before[-1].text in _JOINTS:
+        before.pop()
+    return before, [part for _, part in sorted(ranked, key=lambda each: each[0])]
+
+
+def _parts(tokens: Sequence[Token]) -> list[list[Token]]:
+    """What commas and "and" part in `tokens`, without them."""
+    made: list[list[Token]] = [[]]
+    for token in tokens:
+        if token.text in _JOINTS:
+            made.append([])
+        elif token.text not in ("finally", "lastly"):
+            made[-1].append(token)
+    return [part for part in made if part]
+
+
+def _intro(tokens: Sequence[Token], nouns: Nouns) -> tuple[Token | None, list[Token], int]:
+    """Of "a stack of four cubes on a table" the cubes, what follows them, and how many they are; 0 where not said."""
+    for at, token in enumerate(tokens):
+        name = next((guess for guess in (*singulars(token.text), token.text) if nouns.match([guess])), None)
+        if name is None or token.text in _STACKS or link_at(tokens, at):
+            continue
+        led = any(link_at(tokens, n) and tokens[n].text != "of" for n in range(at))
+        if led:
+            return None, list(tokens), 0
+        numbers = [lexicon.NUMBERS.get(each.text, 0) for each in tokens[:at] if each.text not in ("a", "an", "one")]
+        rest = [each for each in tokens[at + 1 :] if each.text not in _STACKS]
+        return replace(token, text=name), rest, max([0, *numbers])
+    link = next((n for n in range(len(tokens)) if link_at(tokens, n) and tokens[n].text != "of"), len(tokens))
+    return None, list(tokens[link:]), 0
+
+
+def _named(part: Sequence[Token], noun: Token | None, nouns: Nouns) -> list[Token] | None:
+    """`part` as a thing of its own: "the red one" and "red" as "a red block"; None where it is none."""
+    words = [token.text for token in part]
+    if any(word in FINITE for word in words):
+        return None
+    article = replace(part[0], text="a")
+    if _headless(part, nouns):
+        bare = [token for token in part if token.text not in _ARTICLES]
+        return [article, *bare, noun] if noun is not None else None
+    if words[0] == "the" or not (
+        words[0] in lexicon.DETERMINERS or words[0] in lexicon.NUMBERS or words[0].isdecimal()
+    ):
+        return [article, *part[words[0] == "the" :]]
+    return list(part)
+
+
+def _headless(part: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `part` describes and names nothing: "the red one", "red"."""
+    bare = [token.text for token in part if token.text not in _ARTICLES]
+    return bool(bare) and all(is_modifier(word) for word in bare) and not nouns.match(bare[-1:])
+
+
+def _plural(noun: Token, count: int) -> str:
+    return (
+        noun.text if count == 1 else f"{noun.text}es" if noun.text.endswith(("x", "s", "ch", "sh")) else f"{noun.text}s"
+    )

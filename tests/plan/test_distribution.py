@@ -1,0 +1,116 @@
+"""What several things are said to have, clauses without their verb, and nouns that are left out."""
+
+from collections import Counter
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import ScenePlan
+
+
+@pytest.fixture(scope="module")
+def planner() -> GrammarPlanner:
+    return GrammarPlanner()
+
+
+def carries(plan: ScenePlan) -> dict[str, Counter[str]]:
+    """The nouns of what every object carries or holds."""
+    nouns = {obj.name: obj.noun for obj in plan.objects}
+    made: dict[str, Counter[str]] = {}
+    for rel in plan.relations:
+        if rel.supports:
+            made.setdefault(rel.parent, Counter())[nouns[rel.child]] += 1
+    return made
+
+
+def flagged(plan: ScenePlan) -> list[str]:
+    """Notes that doubt the reading; how many there are of a bare plural has to be assumed."""
+    return [note for note in plan.notes if "assumed." not in note]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "owners", "had"),
+    [
+        ("Both bowls contain a lemon.", ["bowl 1", "bowl 2"], {"lemon": 1}),
+        ("Two plates hold a bun.", ["plate 1", "plate 2"], {"bun": 1}),
+        ("All three mugs hold a pencil.", ["mug 1", "mug 2", "mug 3"], {"pencil": 1}),
+        ("Both trays have a cup and a spoon on them.", ["tray 1", "tray 2"], {"cup": 1, "spoon": 1}),
+        ("Two of the three boxes contain a cube.", ["box 1", "box 2"], {"cube": 1}),
+        ("Two crates contain three limes each.", ["crate 1", "crate 2"], {"lime": 3}),
+        ("Both crates contain three limes.", ["crate 1", "crate 2"], {"lime": 3}),
+        ("A pear is in both bowls.", ["bowl 1", "bowl 2"], {"pear": 1}),
+        # A number that is said of several is that of all.
+        ("Two crates contain six limes.", ["crate 1", "crate 2"], {"lime": 3}),
+        # What is long lies across.
+        ("Two bricks carry a plank.", ["brick 1", "brick 2"], {"plank": 1}),
+    ],
+)
+def test_each_of_several_has_its_own(planner, prompt, owners, had):
+    plan = planner.plan(prompt)
+    assert carries(plan) == {owner: Counter(had) for owner in owners}
+    assert flagged(plan) == []
+
+
+def test_one_plank_lies_across_two_bricks(planner):
+    plan = planner.plan("Two bricks carry a plank.")
+    assert [obj.noun for obj in plan.objects].count("plank") == 1
+    assert [one.kind for one in plan.arrangements] == ["across"]
+
+
+def test_one_of_each_kind_for_as_many_owners_is_noted(planner):
+    plan = planner.plan("The three cups hold a pen, a pencil and a ruler.")
+    assert carries(plan) == {"cup 1": Counter(pen=1), "cup 2": Counter(pencil=1), "cup 3": Counter(ruler=1)}
+    assert any("read as one for each" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "held"),
+    [
+        (
+            "There are two baskets. One contains a plum, the other three figs.",
+            {"basket 1": {"plum": 1}, "basket 2": {"fig": 3}},
+        ),
+        ("A white bowl holds an egg, a black one two limes.", {"white bowl": {"egg": 1}, "black bowl": {"lime": 2}}),
+        (
+            "The first tray has two cups on it and the second four spoons.",
+            {"tray 1": {"cup": 2}, "tray 2": {"spoon": 4}},
+        ),
+        ("One vase contains a rose, the other a tulip.", {"vase 1": {"rose": 1}, "vase 2": {"tulip": 1}}),
+        ("The basket holds a lime and the plate an egg.", {"basket": {"lime": 1}, "plate": {"egg": 1}}),
+        ("Of two jars one has a key in it, the other one a coin.", {"jar 1": {"key": 1}, "jar 2": {"coin": 1}}),
+        ("The three white mugs hold a pencil, the red one a pen.", {
+            "white mug 1": {"pencil": 1}, "white mug 2": {"pencil": 1}, "white mug 3": {"pencil": 1},
+            "red mug": {"pen": 1},
+        }),
+        ("Three mugs, one of which holds a pen and another a pencil.", {"mug 1": {"pen": 1}, "mug 2": {"pencil": 1}}),
+    ],
+)  # fmt: skip
+def test_a_clause_without_its_verb_has_that_of_the_clause_before(planner, prompt, held):
+    plan = planner.plan(prompt)
+    assert carries(plan) == {owner: Counter(had) for owner, had in held.items()}
+    assert flagged(plan) == []
+
+
+@pytest.mark.parametrize(
+    ("prompt", "supports"),
+    [
+        ("A basket holds a pear, and a knife is on the tray.", {"pear in basket", "knife on tray"}),
+        ("The large pan is on the stove, two small ones on the shelf.", {
+            "large pan on stove", "small pan 1 on shelf", "small pan 2 on shelf",
+        }),
+        ("A brown vase and three smaller ones on a shelf.", {
+            "brown vase on shelf", "smaller vase 1 on shelf", "smaller vase 2 on shelf", "smaller vase 3 on shelf",
+        }),
+    ],
+)  # fmt: skip
+def test_a_noun_left_out_is_that_of_its_like(planner, prompt, supports):
+    plan = planner.plan(prompt)
+    assert {str(rel) for rel in plan.relations if rel.supports} == supports
+    assert flagged(plan) == []
+
+
+def test_two_are_moved_where_each_is_told_by_its_colour(planner):
+    plan = planner.plan("Put the red mug on the tray and the blue one on the shelf.")
+    assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
+    assert not any(rel.supports for rel in plan.relations)
+    assert any("place:red mug:tray, place:blue mug:shelf" in note for note in plan.notes)

@@ -1,0 +1,63 @@
+"""Instructions that say what is to be moved, and where to, elsewhere than behind their verb."""
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+
+PLANNER = GrammarPlanner()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations", "task"),
+    [
+        ("Take the pear to the counter.", set[str](), "place:pear:counter"),
+        ("Get the pear from the basket to the counter.", {"pear in basket"}, "place:pear:counter"),
+        ("Lift the pear out of the basket and onto the tray.", {"pear in basket"}, "place:pear:tray"),
+        ("Take the basket with the pear in it to the counter.", {"pear in basket"}, "place:basket:counter"),
+        ("Unload the pear from the basket onto the tray.", {"pear in basket"}, "place:pear:tray"),
+        ("Take the pear from the basket.", {"pear in basket"}, "pick:pear"),
+        ("Put the pear back in the basket.", set[str](), "place:pear:basket"),
+        ("The pear on the tray should be moved to the basket.", {"pear on tray"}, "place:pear:basket"),
+        ("The pear belongs in the basket.", set[str](), "place:pear:basket"),
+        ("Leave the pear on the tray and put the plum in the basket.", {"pear on tray"}, "place:plum:basket"),
+        ("Put the plum in the basket; leave the pear where it is, on the tray.", {"pear on tray"}, "place:plum:basket"),
+        ("Pick up the pear and leave it on the tray.", set[str](), "place:pear:tray"),
+        ("Pick up the pear and place it on the tray next to the sofa.", set[str](), "place:pear:tray"),
+    ],
+)
+def test_the_task_and_the_scene_before_it(prompt: str, relations: set[str], task: str):
+    plan = PLANNER.plan(prompt)
+    assert ({str(relation) for relation in plan.relations}, plan.task) == (relations, task)
+    assert not [note for note in plan.notes if note != 'not modelled: "next to the sofa"']
+
+
+@pytest.mark.parametrize(
+    ("prompt", "tasks"),
+    [
+        ("Put the pear on the tray and then the plum.", "place:pear:tray, place:plum:tray"),
+        ("Put the pear on the tray, then the plum, then the lime.",
+         "place:pear:tray, place:plum:tray, place:lime:tray"),
+        ("Put the red mug on the tray and the blue one in the basket.",
+         "place:red mug:tray, place:blue mug:basket"),
+        ("Put one of the two mugs on the tray and the other in the basket.",
+         "place:mug 1:tray, place:mug 2:basket"),
+        ("Both the pear and the plum belong in the basket.", "place:pear:basket, place:plum:basket"),
+    ],
+)  # fmt: skip
+def test_what_is_said_once_is_done_for_each(prompt: str, tasks: str):
+    plan = PLANNER.plan(prompt)
+    assert plan.relations == ()
+    assert plan.notes == (f"the instruction is several tasks, of which the environment has one at a time: {tasks}.",)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "Empty the mug of its pens by moving them to the basket.",
+        "Move the pens one by one from the mug to the basket.",
+    ],
+)
+def test_what_is_moved_one_by_one_is_where_it_comes_from(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert {str(relation) for relation in plan.relations} == {f"pen {at} in mug" for at in (1, 2, 3)}
+    assert any("place:pen 1:basket, place:pen 2:basket" in note for note in plan.notes)

@@ -1,0 +1,63 @@
+"""Stacks of which the sentence says who is below whom, how many there are, or that what stood apart is stacked."""
+
+import itertools
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+
+PLANNER = GrammarPlanner()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "tower"),
+    [
+        ("From bottom to top: a tray, a book and a can.", ("tray", "book", "can")),
+        ("From the top down: a can, a book, a tray.", ("tray", "book", "can")),
+        ("Three crates, the green one at the bottom, the red one on top and the blue one in between.",
+         ("green crate", "blue crate", "red crate")),
+        ("A tower of three crates: green at the bottom, then blue, then red.",
+         ("green crate", "blue crate", "red crate")),
+        ("A stack of crates, top to bottom red, blue, green.", ("green crate", "blue crate", "red crate")),
+        ("A stack of four crates, the red one at the bottom and the blue one on top.",
+         ("red crate", "crate 1", "crate 2", "blue crate")),
+        ("A pile with a tray at the bottom, a book in the middle and a can on top.", ("tray", "book", "can")),
+        ("A stack with exactly three crates.", ("crate 1", "crate 2", "crate 3")),
+        ("A tower which has two green crates and one red crate on top.",
+         ("green crate 1", "green crate 2", "red crate")),
+        ("Stack crates (red, green, blue).", ("red crate", "green crate", "blue crate")),
+        ("Three crates are on the ground. They are stacked.", ("crate 1", "crate 2", "crate 3")),
+    ],
+)  # fmt: skip
+def test_who_is_below_whom(prompt: str, tower: tuple[str, ...]):
+    plan = PLANNER.plan(prompt)
+    assert {obj.name for obj in plan.objects} == {*tower}
+    assert {str(relation) for relation in plan.relations} == {
+        f"{upper} on {lower}" for lower, upper in itertools.pairwise(tower)
+    }
+    assert not [note for note in plan.notes if not note.endswith("is read as the scene to make")]
+
+
+def test_what_is_stacked_later_no_longer_stands_on_the_table_itself():
+    plan = PLANNER.plan("Three crates are on a table. They are stacked.")
+    assert {str(relation) for relation in plan.relations} == {
+        "crate 1 on table",
+        "crate 2 on crate 1",
+        "crate 3 on crate 2",
+    }
+
+
+def test_some_are_arranged_as_several_towers():
+    plan = PLANNER.plan("Six cans arranged as two towers of three.")
+    assert sum(relation.kind == "on" for relation in plan.relations) == 4
+    assert plan.notes == ()
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["A crate with a ball at the bottom and a book on top.", "A shelf with a vase on top and a jar at the bottom."],
+)
+def test_what_is_at_the_bottom_of_a_thing_is_in_no_tower(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert len(plan.objects) == 3
+    assert 'not understood: "the bottom"' in plan.notes
