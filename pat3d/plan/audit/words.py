@@ -228,7 +228,7 @@ upper topmost leftmost rightmost lower pieces piece very quite just really only 
 like several animals want see imagine show create make build corners he she they namely whereas itself themselves
 himself herself now still
 already image possible sure ensure find finds generate remaining
-yesterday today currently simply form forms forming appears appear x count slightly
+yesterday today currently simply form forms forming appears appear x count slightly except
 """
 _POSTURES = """
 hidden else cover
@@ -243,7 +243,7 @@ _DEEDS = """
 moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean
 bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
-robot robotic gripper away back close pass hand throw putting placing stacking relocate reposition shift drag
+robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

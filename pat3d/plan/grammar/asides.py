@@ -13,6 +13,10 @@ from pat3d.plan.grammar.unmade import base_verb
 ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
 
 
+_FACES = frozenset({"screen", "display", "lid", "cover", "cap"})
+"""Parts that show something, and are things of their own elsewhere."""
+
+
 class Asides(RelationWords):
     """Reads what is left out of the scene."""
 
@@ -79,11 +83,20 @@ class Asides(RelationWords):
         """Name "a picture of a cat on it", which is no object."""
         shown = self._phrases.read(of + 1)
         end = shown[1] if shown is not None else of + 1
-        size = link_at(self._tokens, end)
-        if size and self._tokens[end + size].text in lexicon.PRONOUNS:
-            end += size + 1
+        end += self._on_a_part(end)
         self._made.chunks.pop()
         self._leave(end - self._at)
+
+    def _on_a_part(self, at: int) -> int:
+        """Tokens from token `at` on that say where on a thing something is: "on it", "on the screen", "on its lid"."""
+        size = link_at(self._tokens, at)
+        if not size or self._tokens[at].text not in ("on", "at", "in", "across"):
+            return 0
+        if self._tokens[at + size].text in lexicon.PRONOUNS:
+            return size + 1
+        read = self._phrases.read(at + size)
+        part = read is not None and (read[0].kind == "part" or read[0].head in lexicon.DETACHED | _FACES)
+        return read[1] - at if read is not None and part and not read[0].part else 0
 
     def _remark(self) -> None:
         """Set aside the rest of the sentence, which tells of light or mood."""
