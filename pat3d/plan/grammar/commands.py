@@ -77,8 +77,10 @@ def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "open the pot by lifting the lid and turning it" as "open the pot, lift the lid and turn it"."""
     words = [token.text for token in tokens]
     by = words.index("by") if "by" in words else 0
+    if by < 3:
+        return tokens
     verb = by + 1 + (words[by + 1].endswith("ly"))
-    gerund = by > 2 and words[verb].endswith("ing") and base_verb(words[verb])
+    gerund = words[verb].endswith("ing") and base_verb(words[verb])
     asked = base_verb(words[0]) == words[0] and words[1] in lexicon.DETERMINERS and words[0] not in ("build", "make")
     if not gerund or not asked or link_at(tokens, verb):
         return tokens
