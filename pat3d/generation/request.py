@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 
 MATCHING = frozenset({"bathroom", "furniture", "storage", "tableware"})
 """Families whose equal objects come as a set: four plates are four of one plate, four apples are four apples."""
+_PAIRED = frozenset({"shoe", "boot", "slipper", "sock", "glove"})
+"""Nouns of other families that are alike too: nobody has a yellow and a black boot."""
+_PROPPED = frozenset({"picture frame"})
+"""Nouns of what stands on a prop of its own, which is folded away where it leans on something."""
 _ONE_BY_ONE = frozenset({"cup", "mug"})
 """Nouns of such families of which people have one of each colour."""
 
@@ -123,6 +127,11 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     together = built_together([obj.name for obj in plan.objects], plan.relations)
     planned = {obj.name: obj for obj in plan.objects}
     colours = _different_colours(plan.objects, seed)
+    leaning = {name for one in plan.held() if one.kind == "leaning_against" for name in one.objects}
+
+    def adjectives(obj: PlannedObject) -> tuple[str, ...]:
+        folded = obj.name in leaning and obj.noun in _PROPPED
+        return (*obj.adjectives, "leaning") if folded else obj.adjectives
 
     def make(name: str, factor: float = 1.0) -> Asset:
         obj = planned[name]
@@ -132,7 +141,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
             scale=obj.scale,
             colours=obj.colours or colours.get(name, ()),
             material=obj.material,
-            adjectives=obj.adjectives,
+            adjectives=adjectives(obj),
         )
         if obj.extent is not None:
             usual = sources.make(obj.noun, asked)
@@ -143,7 +152,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     assets: dict[str, Asset] = {}
     for number, obj in enumerate(plan.objects):
         progress(Event(stage="making assets", detail=obj.name, step=number, steps=len(plan.objects)))
-        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, obj.adjectives)
+        look = (obj.noun, obj.colours, obj.material, obj.scale, obj.extent, adjectives(obj))
         entry = catalogue.find(obj.noun)
         shared = entry is not None and _is_set(entry)
         key = (look, colours.get(obj.name), obj.phrase if shared else together.get(obj.name, obj.name))
@@ -171,7 +180,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
 
 
 def _is_set(entry: Entry) -> bool:
-    return entry.family in MATCHING and entry.noun not in _ONE_BY_ONE
+    return (entry.family in MATCHING and entry.noun not in _ONE_BY_ONE) or entry.noun in _PAIRED
 
 
 def _different_colours(objects: Sequence[PlannedObject], seed: int) -> dict[str, tuple[str, ...]]:

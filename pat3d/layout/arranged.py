@@ -56,7 +56,7 @@ def arrangement_holds(one: Arrangement, bodies: Mapping[str, Placed], touch: flo
         targets = of * len(objects) if of else objects[::-1]
         return _every(_faces(body, target) for body, target in zip(objects, targets, strict=True))
     if one.kind == "leaning_against":
-        return _leans(objects[0], of[0], touch)
+        return _leans(objects[0], of, touch)
     if one.kind == "under":
         return _every(_under(body, of[0]) for body in objects)
     if one.kind == "across":
@@ -198,10 +198,12 @@ def _faces(body: Placed, target: Placed) -> tuple[bool, str]:
     return off <= SIGHT, f"{off:.0f} degrees off (at most {SIGHT:.0f})"
 
 
-def _leans(body: Placed, on: Placed, touch: float) -> tuple[bool, str]:
-    closest = distance(body, on, touch + 1e-9)
-    if closest is None:
+def _leans(body: Placed, on: Sequence[Placed], touch: float) -> tuple[bool, str]:
+    touched = [found for one in on if (found := distance(body, one, touch + 1e-9)) is not None]
+    if not touched:
         return False, f"gap over {touch * 1e3:.1f} mm"
+    # Of a stack, what is touched highest up.
+    closest = max(touched, key=lambda one: float(one.first[2]))
     foot = body.vertices[body.vertices[:, 2] < body.low[2] + _FOOT, :2]
     falls = not contains(outline(foot), body.centre_of_mass[:2]) if len(foot) > 2 else True
     high = (float(closest.first[2]) - float(body.low[2])) / float(body.high[2] - body.low[2])

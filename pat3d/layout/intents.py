@@ -17,7 +17,7 @@ from pat3d.layout.bodies import Array
 from pat3d.layout.flat import Lateral, natural_gap
 from pat3d.layout.formations import Formation, Sight, Wishes, close_row, lattice, pairs, ring_of_carriers, start_angle
 from pat3d.layout.group import Group
-from pat3d.layout.leaning import leaning_offset, under_offsets
+from pat3d.layout.leaning import leaning_offset, leaning_offsets, under_offsets
 from pat3d.layout.shelved import holds_books
 from pat3d.layout.tops import item_of
 from pat3d.scene.arrangements import LINES, Arrangement, crossing
@@ -105,6 +105,7 @@ class Intents:
         """
         lines = [intent for intent in self.by_surface.get(support, []) if intent.arrangement.kind in LINES]
         below: dict[str, list[str]] = {}
+        leaners: dict[str, dict[str, tuple[Group, Array]]] = {}
         grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
         formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
         rows = [one for one in self._rows(lines, groups, gap) if not any(set(one.members) <= set(c) for c in grids)]
@@ -126,8 +127,7 @@ class Intents:
             elif one.kind == "far_from":
                 far |= {frozenset(pair) for pair in ([(a, b) for a in objects for b in of] if of else pairs(objects))}
             elif one.kind == "leaning_against":
-                away = leaning_offset(groups[objects[0]], groups[of[0]], self.leaning[objects[0]], gap)
-                formations.append(_pair(objects[0], of[0], away))
+                leaners.setdefault(of[0], {})[objects[0]] = (groups[objects[0]], self.leaning[objects[0]])
             elif one.kind == "under":
                 below.setdefault(of[0], []).extend(name for name in objects if name not in below.get(of[0], ()))
             elif one.rule.on_it:
@@ -135,6 +135,9 @@ class Intents:
                 together = one.kind == "in_corner" and len(objects) > 1
                 if together and not any({*objects} & {*other.names} for other in formations):
                     formations.append(Formation(members=objects, cells=lattice(objects)))
+        for wall, leaning in leaners.items():
+            fixed = {wall: np.zeros(2), **leaning_offsets(leaning, groups[wall], gap)}
+            formations.append(Formation(members=tuple(fixed), fixed=fixed, overlapping=True))
         for cover, names in below.items():
             away = under_offsets([groups[name] for name in names], groups[cover], gap)
             fixed = {cover: np.zeros(2), **dict(zip(names, away, strict=True))}
@@ -178,7 +181,7 @@ class Intents:
         for intent in self.by_surface[support]:
             one = intent.arrangement
             if one.kind == "leaning_against":
-                (name,), (other,) = intent.moved(one.objects), intent.moved(one.of)
+                name, other = intent.moved((one.objects[0], one.of[0]))
                 if (name, other) in pairwise(members) or (other, name) in pairwise(members):
                     away = leaning_offset(groups[name], groups[other], self.leaning[name], gap)
                     steps |= {(other, name): away, (name, other): -away}
@@ -212,7 +215,8 @@ class Intents:
             self.notes.append(f'"{one}" is left aside: "{support}" carries the others.')
             return None
         moved = {name: path[path.index(support) - 1] for name, path in paths.items()}
-        if len(set(moved.values())) < len(moved):
+        stack = one.kind == "leaning_against" and len({moved[name] for name in one.of}) == 1
+        if len(set(moved.values())) < len(moved) and not (stack and moved[one.objects[0]] != moved[one.of[0]]):
             self.notes.append(f'"{one}" is left aside: some of it stands on one thing.')
             return None
         if support != GROUND and any(kinds[name] != "on" for name in moved.values()):
@@ -297,8 +301,3 @@ def _within(kind: str, objects: Sequence[str], of: Sequence[str], rows: Sequence
     if kind == "between" and len(of) == 2:
         return any(row.members == (of[0], *objects, of[1]) for row in rows)
     return kind == "leaning_against" and any((objects[0], of[0]) in row.steps for row in rows)
-
-
-def _pair(name: str, other: str, away: Array) -> Formation:
-    """What leans on, or is under, another thing stands below some of it."""
-    return Formation(members=(other, name), fixed={other: np.zeros(2), name: away}, overlapping=True)

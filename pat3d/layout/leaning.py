@@ -9,7 +9,7 @@ not beyond its lower edge, which thick things only have at a large tilt.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -37,8 +37,13 @@ _FOOT = 2e-3
 """What is this near to the lowest point [m] stands on the floor."""
 HELD = 1.2
 """Height of the support of what leans, over that of its centre of mass, which is enough: lower, and the foot slides."""
+LOWEST = 0.5
+"""Height of what something leans against, over that of its centre of mass, below which it slides in any case: leaning
+by 9 degrees it needs a friction of 0.32 then."""
 _ASIDE = (0.0, -0.85, 0.85, -0.6, 0.6, -0.3, 0.3)
 """Where something leans, as shares of the half width of what it leans on."""
+_ELBOW = 0.02
+"""Least distance of things that lean on one thing [m]."""
 _HIGHER = 0.01
 """What is higher by this [m] is worth leaving the middle for."""
 _TRIED = 15
@@ -92,10 +97,34 @@ def _rolled(body: Body, axes: Array, way: Array) -> tuple[Array, float]:
     return turn(_UP, roll) @ axes, math.atan2(float(np.linalg.norm(beside)), float(centre[2]) - low)
 
 
-def leaning_offset(group: Group, wall: Group, way: Array, gap: float) -> Array:
+def leaning_offsets(leaners: Mapping[str, tuple[Group, Array]], wall: Group, gap: float) -> dict[str, Array]:
+    """`leaning_offset` of several, by name, each with its way to `wall`: beside each other, [m], shape (2,) each.
+
+    Raises:
+        LayoutError: one passes by, has no room beside the others, or would slide from under what is so low.
+    """
+    found: dict[str, Array] = {}
+    standing: list[Placed] = []
+    middle = (wall.root.low + wall.root.high) / 2
+    for name, (group, way) in leaners.items():
+        found[name] = leaning_offset(group, wall, way, gap, standing)
+        own = (group.root.low + group.root.high) / 2
+        high, weight = float(wall.high[2] - wall.low[2]), float(group.root.centre_of_mass[2] - group.low[2])
+        if high < LOWEST * weight:
+            raise LayoutError(
+                f'"{wall.name}" ({high:.2f} m high) is too low for "{name}" to lean against: its centre of mass is '
+                f"{weight:.2f} m up, and it would slide down. Nothing was written."
+            )
+        there = np.array([*(found[name] + middle[:2] - own[:2]), gap - float(group.low[2])])
+        standing.extend(group.shifted(there).members)
+    return found
+
+
+def leaning_offset(group: Group, wall: Group, way: Array, gap: float, beside: Sequence[Placed] = ()) -> Array:
     """Where the middle of `group`, turned already, is from that of `wall` so that it nearly touches it [m], shape (2,).
 
-    It leans on the middle, or where that is low (the seat of an armchair), on what is higher beside it (an arm).
+    It leans on the middle, or where that is low (the seat of an armchair), on what is higher beside it (an arm); where
+    something else leans already (`beside`), clear of that.
 
     Raises:
         LayoutError: it passes by.
@@ -110,11 +139,14 @@ def leaning_offset(group: Group, wall: Group, way: Array, gap: float) -> Array:
     for share in _ASIDE:
         met = _met(start.shifted(share * float(half @ np.abs(aside)) * aside), low_wall, way, gap)
         if met is not None and (best is None or met[0] > best[0] + _HIGHER):
-            best = met
+            there = start.shifted(np.array([*(met[1] - middle)[:2], 0.0]))
+            if all(clear(one, beside, _ELBOW) for one in there.members):
+                best = met
         if best is not None and best[0] >= enough:
             break
     if best is None:
-        raise LayoutError(f'"{group.name}" finds nothing of "{wall.name}" to lean against. Nothing was written.')
+        taken = f" beside {listed([one.body.name for one in beside])}" if beside else ""
+        raise LayoutError(f'"{group.name}" finds nothing of "{wall.name}" to lean against{taken}. Nothing was written.')
     return (best[1] - middle)[:2]
 
 

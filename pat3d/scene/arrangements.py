@@ -122,8 +122,8 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
     "leaning_against": ArrangementRule(
         words="leaning against",
         objects=(1, 1),
-        of=(1, 1),
-        holds="it touches what it leans on above its own foot, and its centre of mass is not over its foot",
+        of=(1, MANY),
+        holds="it touches what it leans on, or one of a stack, above its foot, and its centre of mass is not over that",
     ),
     "under": ArrangementRule(
         words="under",

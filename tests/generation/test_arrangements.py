@@ -225,6 +225,26 @@ def test_a_spoon_stays_across_a_bowl(seed, tmp_path):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(
+    ("prompt", "held"),
+    [
+        ("A picture frame leans against a stack of three books.",
+         "picture frame leaning_against book 1, book 2, book 3"),
+        ("Two umbrellas lean against a bench.", "umbrella 2 leaning_against bench"),
+        ("Five cups stand in a circle around a teapot and a jug on a table.",
+         "cup 1, cup 2, cup 3, cup 4, cup 5 circle teapot, jug"),
+        ("A bottle stands in each corner of a tray.", "bottle 1, bottle 2, bottle 3, bottle 4 in_corners tray"),
+        ("Two boots and a box are under a bench.", "boot 1, boot 2, box under bench"),
+    ],
+)  # fmt: skip
+def test_what_a_sentence_says_of_several_is_held(prompt, held, tmp_path):
+    pat3d.generate(prompt, out=tmp_path / "scene", seed=1)
+    report = read_json(tmp_path / "scene" / "report.json")
+    assert report["passed"], report["failures"]
+    assert held in [one["relation"] for one in report["verification"]["relations"]["list"] if one["holds"]]
+
+
+@pytest.mark.slow
 def test_a_carrier_that_only_seems_to_carry_is_found_out(made, tmp_path):
     """One block 0.9 mm lower: the plank still touches it, by the predicate, and MuJoCo has no force there."""
     scene, folder = made("pyramid")

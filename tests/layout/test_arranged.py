@@ -265,6 +265,35 @@ def test_several_that_face_one_thing_stand_in_a_row_before_it(seed):
     assert [result for result in check_arranged((*asked, row), (), assets, poses) if not result.holds] == []
 
 
+@pytest.mark.parametrize("seed", range(2))
+def test_what_leans_on_a_stack_touches_one_of_it(seed):
+    """A board of 25 cm on three blocks, 18 cm high: in the layout it is a gap from one, and far from the lowest."""
+    assets = {"a": block(0.1, 0.01, 0.25), "x": block(), "y": block(0.05, 0.05, 0.06), "z": block()}
+    stack = (Relation(child="y", kind="on", parent="x"), Relation(child="z", kind="on", parent="y"))
+    asked = Arrangement(kind="leaning_against", objects=("a",), of=("x", "y", "z"))
+    poses = arrange(assets, stack, seed=seed, arrangements=(asked,)).poses
+    near = 0.003
+    assert check_arranged((asked,), (), assets, poses, touch=near)[0].holds
+    assert not check_arranged((replace(asked, of=("x",)),), (), assets, poses, touch=near)[0].holds
+    assert not check_arranged((asked,), (), assets, poses, touch=1e-4)[0].holds
+
+
+def test_several_lean_on_one_thing_beside_each_other_and_on_nothing_low():
+    assets = {
+        "bench": block(1.0, 0.3, 0.4),
+        "low": block(1.0, 0.3, 0.05),
+        **{name: block(0.1, 0.01, 0.5) for name in "abc"},
+    }
+    lean = tuple(Arrangement(kind="leaning_against", objects=(name,), of=("bench",)) for name in "abc")
+    poses = arrange(assets, (), seed=0, arrangements=lean).poses
+    assert all(result.holds for result in check_arranged(lean, (), assets, poses, touch=0.003))
+    bodies = place_all(assets, poses)
+    gaps = [distance(bodies[a], bodies[b]) for a, b in ("ab", "bc", "ac")]
+    assert all(one is not None and one.distance > 0.015 for one in gaps)
+    with pytest.raises(LayoutError, match=r'"low" \(0.05 m high\) is too low for "a"'):
+        arrange(assets, (), seed=0, arrangements=(replace(lean[0], of=("low",)),))
+
+
 def test_what_leans_would_fall_without():
     wall, board = block(0.1, 0.1, 0.3), block(0.1, 0.01, 0.25)
     tilted = leaning_rotation(Body("board", board), np.array([0.0, 1.0, 0.0]))

@@ -68,6 +68,8 @@ def test_a_name_that_refers_back_makes_nothing_new(planner: GrammarPlanner, prom
         ("Put the cups (red, green, white) on the tray.", ["red cup", "green cup", "white cup"]),
         ("Place the boxes of three different colors (red, orange, blue) on the table.",
          ["red box", "orange box", "blue box"]),
+        ("Two cubes (red, white) and two matching colored cups (red, white).",
+         ["red cube", "white cube", "red cup", "white cup"]),
         ("The mugs (one red, two black) are on the shelf.", ["red mug", "black mug 1", "black mug 2"]),
         ("Two vases, white and blue, stand on a table.", ["white vase", "blue vase"]),
         ("Three balls are orange, red and green.", ["orange ball", "red ball", "green ball"]),
@@ -83,3 +85,45 @@ def test_what_is_listed_is_what_was_counted(planner: GrammarPlanner, prompt: str
     assert [obj.name for obj in plan.objects][: len(expected)] == expected
     assert len(plan.objects) <= len(expected) + 1
     assert not any("counted otherwise" in note or "not in the scene" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "count"),
+    [
+        ("Some grapes and two pears are in a bowl.", "grapes", 1),
+        ("Some bread lies on a board.", "bread", 1),
+        ("Three mugs on saucers stand on a tray.", "saucer", 3),
+        ("A kettle and two cups on saucers are on the table.", "saucer", 2),
+        ("Five plates are on placemats.", "placemat", 5),
+        ("Two lamps on tables.", "table", 2),
+        ("Two pears and twice as many figs are in a bowl.", "fig", 4),
+        ("Six pens and half as many pencils are in a cup.", "pencil", 3),
+        ("There are two mugs and three times as many spoons on a tray.", "spoon", 6),
+        ("A pot stands on a stove with four burners.", "bunsen burner", 0),
+        ("A spoon with its bowl in a glass.", "bowl", 0),
+        ("The jar on the left is empty and the jar on the right is full.", "jar", 2),
+        ("The basket on the left holds a cup, the one on the right is empty.", "basket", 2),
+        ("The left mug is red, the right one white.", "mug", 2),
+        ("Two trays, each with a bun and a knife next to it.", "knife", 2),
+    ],
+)
+def test_so_many_are_made(planner: GrammarPlanner, prompt: str, noun: str, count: int):
+    plan = planner.plan(prompt)
+    assert sum(obj.noun == noun for obj in plan.objects) == count
+    assert not any("counted otherwise" in note for note in plan.notes)
+
+
+def test_half_of_what_is_odd_is_noted(planner: GrammarPlanner):
+    assert 'not understood: "half"' in planner.plan("Three figs and half as many pears are in a bowl.").notes
+
+
+def test_what_is_in_a_dish_is_not_beside_it(planner: GrammarPlanner):
+    plan = planner.plan("A plate with a bun and a fork next to it.")
+    assert {(rel.child, rel.kind) for rel in plan.relations} == {("bun", "on"), ("fork", "next_to")}
+
+
+def test_what_is_said_of_everything_is_said_of_each(planner: GrammarPlanner):
+    plan = planner.plan("Everything on the tray is green: a cup, two bowls and a pen.")
+    assert {obj.colours for obj in plan.objects if obj.name != "tray"} == {("green",)}
+    assert len(plan.relations) == 4
+    assert not plan.notes

@@ -68,3 +68,42 @@ def test_what_lies_flat_on_its_side_does():
 def test_what_is_at_the_bottom_stands_by_nothing_before_the_task():
     plan = PLANNER.plan("Stack the three bowls, the green one at the bottom, the red one on top.")
     assert plan.relations == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("A pan with a steak and a fork next to it.", {"steak in pan", "fork next_to pan"}),
+        ("A tray with a jug and a lemon beside it.", {"jug on tray", "lemon next_to tray"}),
+        ("A crate on a desk with a ball, a doll and a roll of tape inside.",
+         {"crate on desk", "ball in crate", "doll in crate", "roll of tape in crate"}),
+        ("The desk holds a vise, a lamp and two coins in a small bowl.",
+         {"vise on desk", "lamp on desk", "small bowl on desk", "coin 1 in small bowl", "coin 2 in small bowl"}),
+        ("A spoon and a pen in a mug.", {"spoon in mug", "pen in mug"}),
+    ],
+)  # fmt: skip
+def test_what_is_in_something_stays_there(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("On the desk to the right of the lamp lies a pen.", {"pen on desk", "lamp on desk", "pen right_of lamp"}),
+        ("On the desk, behind the lamp, there is a pen.", {"pen on desk", "lamp on desk", "pen behind lamp"}),
+        ("On the desk next to the lamp are a pen and a book.",
+         {"pen on desk", "book on desk", "lamp on desk", "pen next_to lamp", "book next_to lamp"}),
+        ("Behind the bed, next to the chair, stands a lamp.", {"lamp behind bed", "lamp next_to chair"}),
+        ("On the rug next to the bed stands a lamp.", {"lamp on rug", "rug next_to bed"}),
+        ("A pen is left of the lamp, behind the book, and in front of the vase.",
+         {"pen left_of lamp", "pen behind book", "pen in_front_of vase"}),
+        ("The pen is left of the lamp, it is behind the book, and it is in front of the vase.",
+         {"pen left_of lamp", "pen behind book", "pen in_front_of vase"}),
+        ("The pen is behind the lamp, the book and the vase.",
+         {"pen behind lamp", "pen behind book", "pen behind vase"}),
+    ],
+)  # fmt: skip
+def test_every_place_is_that_of_the_subject(prompt: str, relations: set[str]):
+    plan = PLANNER.plan(prompt)
+    assert {str(relation) for relation in plan.relations} == relations
+    assert plan.notes == ()

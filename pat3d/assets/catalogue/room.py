@@ -304,13 +304,14 @@ def mirror(style: Style) -> Build:
     synonyms=("photo frame", "framed photo", "framed picture", "photo", "photograph", "picture"),
 )
 def picture_frame(style: Style) -> Build:
-    """A frame on its easel, with a picture of hills under the sun."""
+    """A frame on its easel, with a picture of hills under the sun; one that is to lean on something has no easel."""
     x, z = style.vary(0.16), style.vary(0.2)
     if style.adjectives & {"wide", "landscape"}:
         x, z = z, x
-    f, slope = 0.016, 0.2
+    f, slope = 0.016, 0.0 if "leaning" in style.adjectives else 0.2
     frame = leaning(box(x, 0.016, z), slope)
     prop = strut((0.0, 0.075), (0.0, slope * 0.72 * z + 0.008), (0.0, 0.72 * z), 0.012, 0.01)
+    easel = ((prop, style.shade(style.colour(), 0.7)),) if slope else ()
 
     def inset(margin: float) -> Shape:
         return leaning(span((-x / 2 + margin, x / 2 - margin), (-0.03, -0.004), (margin, z - margin)), slope)
@@ -324,7 +325,7 @@ def picture_frame(style: Style) -> Build:
         for shape, colour in ((sun, COLOURS["yellow"]), (hills, GREENS[0]), (more, GREENS[1]))
     ]
     return Build(
-        parts=((frame, style.colour()), (prop, style.shade(style.colour(), 0.7))),
+        parts=((frame, style.colour()), *easel),
         paint=((inset(f), WHITE), (scene, (150, 196, 224)), *clip),
         mass=style.vary(0.4),
     )

@@ -155,5 +155,7 @@ def _held_in_arms(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         near = owner if owner is not None and {*owner.noun.split()} & _ARMED else None
         told = near or next(one for one in it.said.mentions if {*one.noun.split()} & _ARMED)
+        if " holding " in it.told:
+            return
         if near is not None or (owner is not None and owner.noun in it.furniture):
             yield claim.at, f'not arranged: "{told.text}" {claim.said}'

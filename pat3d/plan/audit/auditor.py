@@ -12,7 +12,7 @@ from pat3d.plan.audit.asked import requests
 from pat3d.plan.audit.chained import chained
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
-from pat3d.plan.audit.identity import confused
+from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.members import shares
 from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
@@ -26,6 +26,7 @@ from pat3d.plan.audit.places import (
     middle_ones,
     middles,
     on_the_other,
+    opposite,
     others,
     parts,
     shared_out,
@@ -140,8 +141,10 @@ def _shapes(it: Compared) -> frozenset[str]:
         frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
+        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
+        | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())
     )
 
 
@@ -184,6 +187,7 @@ class _Auditor(Compared):
         made += [*requests(self), *shares(self), *chained(self)]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
+        made += opposite(self)
         for claim in self.said.claims:
             if (note := broken(self, claim) or misattached(self, claim, " ".join(nowhere).lower())) is not None:
                 made.append((claim.at, note))
@@ -246,9 +250,15 @@ class _Auditor(Compared):
             least = sum(mention.number or 1 for mention in mentions if mention.new)
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
-            known = [mention for mention, before in zip(mentions, leads, strict=True)
-                     if mention.new or mention.end in placed or mention.lead not in before
-                     or not _named_so(mention, mentions[: mentions.index(mention)])]  # fmt: skip
+            known = [
+                mention
+                for at, (mention, before) in enumerate(zip(mentions, leads, strict=True))
+                if mention.new
+                or mention.end in placed
+                or mention.lead not in before
+                or side_of(self, mention)
+                or not _named_so(mention, mentions[:at])
+            ]
             bare = [mention for mention in mentions if mention.first == mention.start and not mention.plural]
             listed = sum(self.said.words[mention.start - 1] in (",", ":") for mention in bare)
             least = max(least, listed if listed > 1 else 0)
@@ -263,11 +273,6 @@ class _Auditor(Compared):
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
-
-    def _packed(self, mention: Mention) -> bool:
-        """Whether what `mention` names is counted in bottles: the soap of "three bottles of soap"."""
-        before = self.said.words[max(mention.first - 2, 0) : mention.first]
-        return before[1:] == ["of"] and bool({before[0], *singulars(before[0])} & (PACKETS | PIECES | {"bunch"}))
 
     def _listed(self, mention: Mention) -> bool:
         """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""
@@ -287,6 +292,11 @@ class _Auditor(Compared):
         counted = {*words[start:end]} & (NUMBERS.keys() - {"a", "an"})
         alone = not counted and not all(map(find_colour, heads)) and len(heads) > 1
         return alone and not {"one", "ones"} & {*heads} and mention.number in (None, len(heads))
+
+    def _packed(self, mention: Mention) -> bool:
+        """Whether what `mention` names is counted in bottles: the soap of "three bottles of soap"."""
+        before = self.said.words[max(mention.first - 2, 0) : mention.first]
+        return before[1:] == ["of"] and bool({before[0], *singulars(before[0])} & (PACKETS | PIECES | {"bunch"}))
 
     def _member(self, mention: Mention, mentions: Sequence[Mention]) -> bool:
         """Whether `mention` is one of those that stand behind it: "the third book in a row of five books"."""

@@ -24,7 +24,7 @@ def broken(it: Compared, claim: Claim) -> str | None:
     upset = any(a in turned and b in of and kind == "on" for a, kind, b in it.edges)
     if (claim.place == "above" and upset) or not _holds(it, claim, _here(it, claim), of):
         return f'not as said: "{claim.said}"'
-    whose = whose_of(it, claim)
+    whose = set() if fronted(it, claim) else whose_of(it, claim)
     if whose and not all(
         _holds(it, claim, some, of) for some in ([{one} for one in whose] if claim.whole else [whose])
     ):
@@ -62,6 +62,8 @@ def _just_before(it: Compared, claim: Claim, names: Sequence[str]) -> bool:
     near = {obj.name for mention in _before(it, claim.at)[-3:] for obj in it.of(mention)}
     child = {obj.name for mention in it.said.mentions if mention.start > claim.at for obj in it.of(mention)}
     child |= {obj.name for mention in _before(it, claim.at)[-1:] if mention.end == claim.at for obj in it.of(mention)}
+    # "A cup and a bowl are on a table. A spoon is between them."
+    near |= {obj.name for mention in _before(it, claim.at) if mention.part < claim.part for obj in it.of(mention)}
     return set(names) <= near and not set(names) & child
 
 
@@ -70,10 +72,20 @@ def _opens(it: Compared, claim: Claim) -> bool:
     words = it.said.words
     if claim.at == 0 or words[claim.at - 1] in OPENING or not words[claim.at - 1][0].isalnum():
         return True
-    # "On the desk beside the cup lies a pen"
-    before = next((one for one in it.said.claims if one.end == claim.at), None)
-    inverted = words[claim.end : claim.end + 1] and words[claim.end] in FINITE | {"there"}
-    return bool(inverted) and before is not None and _opens(it, before)
+    # "On the desk next to the laptop is a mug"
+    ahead = [each for each in it.said.claims if each.of is not None and each.of.end == claim.at]
+    return words[claim.end - 1] not in BACKWARD and any(_opens(it, each) for each in ahead)
+
+
+def fronted(it: Compared, claim: Claim) -> bool:
+    """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
+    floor = it.furniture | {"rug", "mat", "carpet"}
+    return any(
+        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        # "On the rug beside the bed stands a lamp": the rug is beside the bed too.
+        and not (claim.of is not None and {one.of.noun, claim.of.noun} <= floor)
+        for one in it.said.claims
+    )
 
 
 def _points_back(it: Compared, claim: Claim, here: set[str]) -> bool:
@@ -141,6 +153,8 @@ def _holds(it: Compared, claim: Claim, here: set[str], of: Sequence[str]) -> boo
         return any(kind in kinds and {a, b} & here for a, kind, b in it.edges)
     if claim.said.startswith(("on the left", "on the right")):
         kinds |= {"on"}
+    if "middle of" in claim.said and len(of) > 1:
+        kinds |= {"between"}
     if claim.said.startswith("off ") and not (it.tasks.strip() or it.undone or "is read as the scene" in it.quoted):
         kinds = {"next_to", "far_from", "hangs_from"}
     if claim.of.noun in CLOSED and claim.place in ("in", "from"):

@@ -67,8 +67,8 @@ def _contradictory(it: Compared) -> Iterator[str]:
 
 def _merged(it: Compared) -> Iterator[tuple[int, str]]:
     """Two definite names with different places behind them, and one object for both."""
-    for one, other in pairwise([mention for mention in it.said.mentions if _side(it, mention)]):
-        sides = _side(it, one), _side(it, other)
+    for one, other in pairwise([mention for mention in it.said.mentions if side_of(it, mention)]):
+        sides = side_of(it, one), side_of(it, other)
         if one.noun == other.noun and one.colours == other.colours and sides[0] != sides[1] and len(it.which(one)) == 1:
             yield other.start, f'"{one.text} {sides[0]}" and "{other.text} {sides[1]}" are read as one'
     landmarks = [claim.of for claim in it.said.claims]
@@ -83,7 +83,7 @@ def _merged(it: Compared) -> Iterator[tuple[int, str]]:
                 yield other.start, f'"{one.text} {its.said}" and "{other.text} {place.said}" are read as one'
 
 
-def _side(it: Compared, mention: Mention) -> str:
+def side_of(it: Compared, mention: Mention) -> str:
     """The side behind a definite name that tells it from its like: "the bowl on the left"."""
     said = it.said.words[mention.end : mention.end + 3]
     definite = it.said.words[mention.first] == "the" and not mention.plural
@@ -130,6 +130,7 @@ def _numbered(it: Compared) -> Iterator[str]:
         said = {word for phrase in phrases for word in phrase.split()}
         vague = said & {"lot", "lots", "number", "few", "several", "many"}
         counted = not vague and any(word in NUMBERS or word.isdecimal() or _TENS.fullmatch(word) for word in said)
+        counted = counted or any("as many" in phrase for phrase in phrases)
         listed = it.said.words[mention.end : mention.end + 1] == ["("] or "colors" in it.said.words
         counted = counted or listed or mention.number is not None or mention.noun in SINGLE or not mention.plural
         if counted or len(several) < 2 or len(phrases) != 1 or any(word in REPEATS for word in it.said.words):

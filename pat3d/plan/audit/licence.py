@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
-from pat3d.plan.audit.claims import whose_of
+from pat3d.plan.audit.claims import fronted, whose_of
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.subjects import listed, said_of
 from pat3d.plan.audit.text import Claim, Mention
@@ -28,6 +28,8 @@ _WITHIN = 4
 """Words from a relation word to the like without a noun that it leads to."""
 _FEATURING = frozenset({"decorated", "including", "includes", "features", "featuring"})
 """Words by which what is first named has all that follows."""
+_PLACES = ("in_corner", "at_edge")
+"""Places on something, which only words for them give."""
 _SO = frozenset({"is", "are", "does", "do", "was", "were"})
 _HEADLESS_INSIDE = re.compile(
     r"\b(in|inside|into|within|contains?|containing|holds?|holding) ((?!and\b)[a-z]+ ){0,3}"
@@ -153,6 +155,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         subjects, _ = said_of(it, claim)
         if subjects and claim.of is not None and claim.place not in ("with", "holding"):
             above = _names(it, subjects)
+        if fronted(it, claim):
+            above = _names(it, [mention for mention in it.said.mentions if mention.start >= claim.end])
         if claim.place in ("with", "holding", "under") and child in below and parent in above:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
@@ -170,6 +174,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         gap = one.end == other.first and any(end <= one.first for end in had)
         if gap and parent in _names(it, [one]) and child in _names(it, [other]):
             return True
+    if any(one.kind in _PLACES and child in one.objects and parent in one.of for one in it.plan.arrangements):
+        return True
     for at in (at for at, word in enumerate(it.said.words) if word in _FEATURING):
         before, behind = ([mention for mention in it.said.mentions if (mention.start < at) is first]
                           for first in (True, False))  # fmt: skip
@@ -267,5 +273,7 @@ def _said_of(it: Compared, claim: Claim) -> set[str]:
     others = [mention for mention in it.said.mentions if mention is not claim.of]
     said = it.said.words[: claim.at]
     start = next((at + 1 for at in range(len(said) - 1, -1, -1) if said[at] in (".", ";", "!", "?")), 0)
-    reaches = bool(REACHING & set(said[start:])) or claim.of is None
+    # "Both hold a nut": of what the sentence before names.
+    reaches = bool(REACHING & set(said[start:]) or {"both", "each", "all"} & set(said[start : start + 1]))
+    reaches = reaches or claim.of is None
     return _names(it, [mention for mention in others if mention.part == claim.part or reaches])

@@ -19,7 +19,9 @@ _REACH = 6
 """Words of "two of them in each of"."""
 _STEMS = frozenset({"larg", "bigg", "small", "tall", "short", "long", "wid", "thick", "thinn", "tini", "high", "low"})
 """Of comparatives."""
-_AS_MANY = re.compile(r"\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)")
+_AS_MANY = re.compile(
+    r"(?<!half )(?<!twice )(?<!times )\bas many ([a-z -]+?) as ([a-z -]+?)(?=[,.;:]|$| are\b| is\b| on\b| in\b)"
+)
 _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
 
@@ -31,6 +33,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _all_but(it)
     yield from _dozens(it)
     yield from _as_many(it)
+    yield from _in_brackets(it)
     yield from _of_one(it)
     yield from _stacked(it)
     yield from _partly(it)
@@ -273,6 +276,17 @@ def rows(it: Compared) -> Iterator[tuple[int, str]]:
         at = next((at for at in range(len(words)) if " ".join(words[at : at + size]) == said), None)
         if at is not None and not stands and len(it.plan.objects) > 1 and said not in it.quoted:
             yield at, f'not as said: "{said}"'
+
+
+def _in_brackets(it: Compared) -> Iterator[tuple[int, str]]:
+    """A number behind which more or less is listed: "three fruits (a fig, a pear)"."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word == "(" and ")" in words[at:]):
+        said = next((n for n in range(at - 1, max(at - _REACH, -1), -1) if words[n] in _SHARES), at)
+        listed = re.split(r" ?, and | ?, | and ", " ".join(words[at + 1 : words.index(")", at)]))
+        plain = not NUMBERS.keys() - {"a", "an"} & {word for each in listed for word in each.split()}
+        if said < at and len(listed) > 1 and plain and len(listed) != NUMBERS[words[said]]:
+            yield at, f'counted otherwise: "{" ".join(words[said:at])}", of which {len(listed)} are listed'
 
 
 def _of_one(it: Compared) -> Iterator[tuple[int, str]]:

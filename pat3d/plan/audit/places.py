@@ -37,6 +37,8 @@ _LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
 """How many there are at least of what a word without a noun is one of."""
 _ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
 """Words that say on which side of each something is."""
+_NEAR = frozenset({"on", "at", "in"})
+_SIDES = ("side", "end", "corner", "edge")
 _NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
@@ -137,6 +139,17 @@ def parts(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'not modelled: "{word}" of "{whole.text}"'
 
 
+def opposite(it: Compared) -> Iterator[tuple[int, str]]:
+    """Which of the corners something is in: any one will do for the plan."""
+    words = it.said.words
+    for at in (at for at in range(1, len(words) - 1) if words[at] in ("opposite", "far", "near")):
+        part = words[at + 1] if words[at + 1] in _SIDES else "corner"
+        told = words[at - 1] in ("the", "a") and words[at + 1] in ("one", "corner", "edge") and part in words
+        cornered = any(one.kind in ("in_corner", "at_edge") for one in it.plan.arrangements)
+        if told and cornered and not re.search(rf"\b{words[at]}\b", it.quoted):
+            yield at, f'not modelled: "{words[at]}" of "{part}": which of them is left open'
+
+
 def others(it: Compared) -> Iterator[tuple[int, str]]:
     """What "the other", "another" or "the second" is one of, where there is only one of it."""
     words = it.said.words
@@ -146,11 +159,8 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         follower = words[at + 1] if at + 1 < len(words) else "."
         if not least or at in leading or follower in ENDS or words[at - 1] in ("each", "one", "hand"):
             continue
-        if (
-            word == "other"
-            and {"side", "end"} & set(words[:at])
-            and words[at - 2 : at] in (["on", "the"], ["at", "the"])
-        ):
+        led = words[at - 1] in _NEAR if word == "another" else words[at - 1] in ("the", "a") and words[at - 2] in _NEAR
+        if led and any(words[n - 1 : n + 1] == ["one", part] for n in range(1, at) for part in _SIDES):
             # "A lamp on one side of the bed and a clock on the other"
             continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
@@ -180,11 +190,11 @@ def insides(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in something closed, or taken out of it, and is placed on it."""
     words = it.said.words
     for at, word in enumerate(words):
-        led = words[max(at - 4, 0) : at]
-        holds = {*words[at + 1 : at + 4]} & {"holds", "hold", "contains", "contain", "full", "filled"}
-        if not {word, *singulars(word)} & CLOSED or (
-            not holds and not {"in", "inside", "into", "from", "out", "within"} & set(led)
-        ):
+        led = {"in", "inside", "into", "from", "out", "within"} & set(words[max(at - 4, 0) : at])
+        holds = {"holds", "hold", "holding", "contains", "contain", "containing", "full", "filled"} & set(
+            words[at + 1 : at + 5]
+        )
+        if not {word, *singulars(word)} & CLOSED or not (led or holds):
             continue
         of = {obj.name for obj in it.plan.objects if word in (*obj.phrase.lower().split(), *obj.name.split())}
         above = [rel for rel in it.plan.relations if rel.kind == "on" and rel.parent in of]
@@ -227,6 +237,9 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
     for at in (at for at, word in enumerate(words) if word in ("middle", "centre", "center")):
         start = next((mention for mention in it.said.mentions if mention.end == at - 2), None)
         if words[at - 2 : at] != ["in", "the"] or words[at + 1 : at + 2] == ["of"] or start is None:
+            continue
+        if any(mention.first <= at < mention.end for mention in it.said.mentions):
+            # "the fork in the middle drawer"
             continue
         own = {obj.name for obj in it.which(start)}
         rows = [one for one in it.plan.arrangements if one.kind == "row" and own & set(one.objects)]

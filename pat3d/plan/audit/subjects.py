@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 
 from pat3d.assets.colours import find_colour
+from pat3d.plan.audit.claims import fronted
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import ARTICLES, BACKWARD, DEEDS, FINITE, FLOOR, HAS, POSED, PRONOUNS, SILENT
@@ -34,6 +35,8 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
         return note
     if asked or claim.place not in _CHECKED or claim.whose or it.excused(claim):
         return None
+    if fronted(it, claim):
+        return None
     back = claim.of is None
     if back and it.said.words[claim.end - 1] not in BACKWARD:
         return None
@@ -45,7 +48,7 @@ def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
     if not of or any(it.missing(mention) for mention in subjects):
         return None
     named = [{obj.name for obj in it.which(mention)} - (set() if back else of) for mention in subjects]
-    kinds = it.kinds(claim)
+    kinds = it.kinds(claim) | ({"between"} if "middle of" in claim.said and len(of) > 1 else set())
     held = [any(a in names and b in of and kind in kinds for a, kind, b in it.edges) for names in named]
     for mention, names, holds in reversed(list(zip(subjects, named, held, strict=True))):
         told = any(obj.phrase.lower() in nowhere for obj in it.which(mention))
@@ -80,6 +83,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)
     if leading is None:
         return listed(it, near), finite
+    if not finite and (leading.at == 0 or words[leading.at - 1] in (".", ";", "!", "?")):
+        # "On the desk next to the clock is a mug": of the desk, or of the mug.
+        return [], False
     before, _ = said_of(it, leading)
     # "A cup on a saucer on a table": of the saucer, or of the cup; of the cup where a verb stands between.
     return (before, False) if finite else ([near, *before], False)

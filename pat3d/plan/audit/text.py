@@ -40,6 +40,10 @@ from pat3d.plan.audit.words import (
 
 _WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _EMPTY = "(?:empty|bare|clear|free|clean)"
+_PICTURE = "(?:picture|photo|image|photograph|scene)"
+_LABEL = re.compile(r"\b([a-z]+) ([1-9]|[a-h])\b(?! [a-z]+(?:s|ing)\b)")
+_RANKS = ("first", "second", "third", "fourth", "fifth")
+_RAINBOW = r"\bin (?:all )?(?:the )?(?:rainbow colou?rs|colou?rs of the rainbow)\b"
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
 _HEADS = PRONOUNS | {"another", "other"}
@@ -107,17 +111,40 @@ class Said:
     """Colours that no name stands behind, and which words they are."""
 
 
+def _ranked(prompt: str, find: Find) -> str:
+    """`prompt` with "bin 1 and bin 2" as "first bin and second bin"."""
+    labels: dict[str, set[str]] = {}
+    for name, label in _LABEL.findall(prompt):
+        if find(name):
+            labels.setdefault(name, set()).add(label)
+
+    def told(match: re.Match[str]) -> str:
+        each = sorted(labels.get(match[1], ()))
+        ranked = 2 <= len(each) <= len(_RANKS)
+        return f"{_RANKS[each.index(match[2])]} {match[1]}" if ranked else match[0]
+
+    return _LABEL.sub(told, prompt)
+
+
 def read(prompt: str, find: Find) -> Said:
     """What `prompt` says on its face."""
     prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
     prompt = re.sub(r"\b(\d+) \((\w+)\)", lambda it: it[1] if str(NUMBERS.get(it[2])) == it[1] else it[0], prompt)
     prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
+    prompt = re.sub(r"\b(?:twice|half|[a-z]+ times) (?=as many\b)", "", prompt)
     prompt = re.sub(r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and", prompt)
-    prompt = re.sub(r"\b\w+,? such as\b ?", "", prompt)
+    prompt = re.sub(r"\bas many\b(?! as\b)", "several", prompt)
+    prompt = re.sub(r"\b\w+ such as\b ?", "", re.sub(r", such as\b", ",", prompt))
     prompt = re.sub(r"\bnothing (but|except) ", "", prompt)
     prompt = re.sub(rf"\b(?:is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", "holds", prompt)
+    prompt = re.sub(r"\bnot far (?:away )?from\b", "near", prompt)
+    prompt = re.sub(r"\bthere (?:appear|seem|happen)s? to be\b", "there is", prompt)
+    prompt = re.sub(r"\breach for\b", "take", prompt)
+    prompt = re.sub(_RAINBOW, "", prompt)
+    prompt = re.sub(rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", "", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
     prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
+    prompt = _ranked(prompt, find)
     said = Said(words=_WORD.findall(re.sub(r"'s(?!\w)", " 's", prompt)))
     parts = _parts(said.words)
     found = _names(said.words, find)
@@ -159,7 +186,13 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     while at < len(words):
         for size in range(min(_LONGEST_NAME, len(words) - at), 0, -1):
             whole = words[at : at + size]
-            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (["of"], ["made"], ["built"])
+            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (
+                ["of"],
+                ["made"],
+                ["built"],
+                ["with"],
+                ["from"],
+            )
             if size == 1 and (_unsure(words, at) or _hue(words, at) or whole[0] in SHADES or formed):
                 continue
             name = find(" ".join(whole))
@@ -210,7 +243,7 @@ def _mention(
 def _elliptic(words: Sequence[str], ahead: Sequence[int]) -> bool:
     """Whether the noun is said of more than the words before it: "a red and a blue cup"."""
     at = ahead[-1] - 1 if ahead else -1
-    return at > 0 and words[at] in ("and", ",") and (
+    return at > 0 and words[at] in ("and", ",") and words[at - 2] not in ("is", "are") and (
         find_colour(words[at - 1]) is not None or words[at - 1] in ADJECTIVES
     )  # fmt: skip
 

@@ -224,8 +224,9 @@ upside upright head facing
 faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest bigger smaller larger bottom
 upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us would
-like several animals want see imagine show create make corners he she they namely whereas itself themselves himself
-herself now still already image possible sure ensure find finds generate remaining
+like several animals want see imagine show create make build corners he she they namely whereas itself themselves
+himself herself now still
+already image possible sure ensure find finds generate remaining
 yesterday today currently simply form forms forming appears appear x count slightly
 """
 _POSTURES = """

@@ -16,10 +16,17 @@ _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
 _ABOUT = frozenset({"about", "approximately", "roughly", "around", "exactly"})
 
 
+_SURROUNDING = frozenset({
+    "circle", "ring", "stand", "stands", "standing", "sit", "sits", "sitting", "lie", "lies", "lying", "placed", "set",
+    "arranged", "gathered", "grouped", "seated", "scattered", "all",
+})  # fmt: skip
+"""Words behind which "around" says where."""
+
+
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
-    whole = _some_of(_any_of(_rounded(_of_whole(tokens))))
-    return _of_each(_equal(_shares(_on_sides(whole), nouns), nouns), nouns)
+    whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
+    return _of_each(_equal(_multiples(_shares(_on_sides(whole), nouns), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -31,12 +38,17 @@ def _is_number(word: str) -> bool:
     return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
 
 
-def _rounded(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "about ten" as "ten"."""
+def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "about ten" as "ten"; what stands, or is formed, "around two vases" surrounds them."""
     single = ("a", "an", "one", "both")
-    follows = zip(tokens, [*tokens[1:], tokens[-1]], strict=True)
-    return [token for token, after in follows
-            if not (token.text in _ABOUT and _is_number(after.text) and after.text not in single)]  # fmt: skip
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        about = token.text in _ABOUT and at + 1 < len(tokens) and _is_number(tokens[at + 1].text)
+        before = tokens[at - 1].text if at and not tokens[at - 1].mark else ""
+        place = token.text == "around" and (before in _SURROUNDING or nouns.match([before]) is not None)
+        if place or not about or tokens[at + 1].text in single:
+            made.append(token)
+    return made
 
 
 def _value(word: str) -> int:
@@ -289,6 +301,34 @@ def _any_of(tokens: Sequence[Token]) -> list[Token]:
         if token.text == "any" and made[at + 1].text == "of":
             made[at] = replace(token, text="one")
     return made
+
+
+def _multiples(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "two cups and twice as many jars" as "two cups and four jars", and "... forks as plates" counted.
+
+    Half of what is odd is no number, and is left as it is said.
+    """
+    words = [token.text for token in tokens]
+    at = next((n for n in range(1, len(words) - 2) if words[n : n + 2] == ["as", "many"]), 0)
+    if not at or words[at - 1] not in ("half", "twice", "times"):
+        return list(tokens)
+    first = at - (2 if words[at - 1] == "times" else 1)
+    factor = {"half": 0.5, "twice": 2.0}.get(words[at - 1], float(_value(words[first])))
+    end = next((n for n in range(at + 3, min(at + 6, len(words))) if words[n] == "as"), 0)
+    if end and not any((found := nouns.match([word])) and found.plural for word in words[end + 1 : end + 4]):
+        return list(tokens)
+    before = end + 1 + (words[end + 1] in ("the", "there")) if end else next(
+        (n for n in range(first - 1, -1, -1) if _value(words[n])), 0)  # fmt: skip
+    number = _value(words[before]) or (1 if words[before] in ("a", "an", "one") else 0)
+    told = number or (lexicon.BARE_PLURAL + 1 if end else 0)
+    if not factor or told * factor != int(told * factor):
+        return list(tokens)
+    amount = replace(tokens[first], text="one" if told * factor == 1 else str(int(told * factor)))
+    if not end:
+        return [*tokens[:first], amount, *tokens[at + 2 :]]
+    joint, base = replace(tokens[end], text="and"), replace(tokens[end], text=str(told))
+    counted = [base] if not number else []
+    return [*tokens[:first], amount, *tokens[at + 2 : end], joint, *counted, *tokens[end + 1 :]]
 
 
 def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

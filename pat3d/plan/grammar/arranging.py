@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.plan.grammar import covers, lexicon
 from pat3d.plan.grammar.shapes import carriers_in_pyramid
 from pat3d.plan.grammar.world import Arranged, Edge, Group, Item, World
 from pat3d.scene.arrangements import ARRANGEMENTS
-from pat3d.scene.relations import Relation
+from pat3d.scene.relations import Relation, RelationKind
 
-_SHARED = ("far_from", "under")
-"""Kinds that have both on the same support and no lateral relation that says so."""
+_SHARED: dict[str, RelationKind] = {"far_from": "next_to", "under": "next_to", "circle": "around"}
+"""Kinds that have both on the same support as this relation does, and no lateral relation that says so: a circle
+around several."""
 
 
 _LINES = ("row", "side_by_side")
@@ -27,9 +31,9 @@ def together(world: World) -> list[Edge]:
     What is under something may stand on a dish with it.
     """
     return [
-        Edge(child=child, kind="next_to", parent=parent, weak=each.kind == "under")
+        Edge(child=child, kind=_SHARED[each.kind], parent=parent, weak=each.kind == "under")
         for each in world.arranged
-        if each.kind in _SHARED
+        if each.kind in _SHARED and (each.kind != "circle" or len(each.of) > 1)
         for child in each.items
         for parent in each.of
     ]
@@ -46,6 +50,11 @@ def settle(world: World, prompt: str) -> None:
             rows = -(-len(group.items) // _ROW)
             for at in range(rows):
                 world.arrange("row", group.items[len(group.items) * at // rows : len(group.items) * (at + 1) // rows])
+    ringed = [{*each.items} for each in world.arranged if each.kind == "circle" and each.of]
+    world.arranged = [
+        each for each in world.arranged if each.kind != "circle" or each.of or {*each.items} not in ringed
+    ]
+    world.arranged = [one for each in world.arranged for one in _one_by_one(world, each)]
     for each in world.arranged:
         if each.kind in _LINES:
             # Of stacks in a row the lowest stand in it.
@@ -60,6 +69,31 @@ def settle(world: World, prompt: str) -> None:
             world.note(f"not arranged: {each.otherwise}")
             if each.kind == "under":
                 world.beside(each.items, "next_to", each.of)
+
+
+def _one_by_one(world: World, each: Arranged) -> list[Arranged]:
+    """`each`, or where several lean on furniture, which is wide enough for them, that each of them does."""
+    if each.kind != "leaning_against" or len(each.items) < 2 or not (each.of and world.on_floor(each.of[0])):
+        return [each]
+    return [replace(each, items=[item]) for item in each.items]
+
+
+def in_order(world: World, row: Sequence[Item]) -> None:
+    """Let the objects of a row stand in the order of `row` from left to right."""
+    own, group = set(row), row[0].group
+    for each in world.arranged:
+        if each.kind in _LINES and set(each.items) == own:
+            each.items = list(row)
+    world.laterals = [
+        edge
+        for edge in world.laterals
+        if not ({edge.child, edge.parent} <= own and edge.kind in ("left_of", "right_of"))
+    ]
+    if set(group.items) == own and not group.cycle:
+        group.items = list(row)
+    else:
+        for left, right in pairwise(row):
+            world.beside([left], "left_of", [right])
 
 
 def rows_of(world: World, group: Group) -> list[list[Item]]:
@@ -148,9 +182,14 @@ def _holds(world: World, each: Arranged) -> bool:
         edges = [world.supports.get(item) for item in each.items]
         level = world.likely.level(world.noun(each.of[0]))
         return level and all(edge is not None and edge.kind == "on" and edge.parent is each.of[0] for edge in edges)
-    everything = {*each.items, *each.of}
+    stack = each.kind == "leaning_against" and each.of[0].group.height > 1
+    everything = {*each.items, *(world.bases(each.of) if stack else each.of)}
+    if each.kind == "leaning_against" and len(everything) > 2:
+        return False
     supports = {world.support(item) for item in everything}
     kinds = {edge.kind for item in everything if (edge := world.supports.get(item)) is not None}
+    if each.kind == "circle" and len(each.of) > 1 and len(supports) > 1:
+        return False
     if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
         return False
     over = each.kind != "under" or world.is_a(each.of[0], lexicon.OVERHANGING)

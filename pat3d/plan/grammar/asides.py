@@ -43,8 +43,9 @@ class Asides(RelationWords):
             self._remark()
             return True
         if word in lexicon.DIRECTIONS:
-            to = follower in ("to", "from") and self._word(2) in lexicon.VIEWERS
-            return self._leave(3 if to else 1)
+            the = self._word(2) == "the"
+            to = follower in ("to", "from") and self._word(2 + the) in lexicon.VIEWERS
+            return self._leave(3 + the if to else 1)
         size = link_at(self._tokens, self._at)
         if (
             size

@@ -11,14 +11,19 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import LINKS
+from pat3d.plan.grammar.outcomes import TAKING, brought, put_back, together
 from pat3d.plan.grammar.unmade import base_verb
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
-_TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
+_PUTTING = frozenset({"put", "place", "set", "lay", "move", "drop", "add", "insert", "throw", "toss", "stack", "bring",
+    "transfer", "load", "pack"})  # fmt: skip
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
-_STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck"})
+_DOING = frozenset({"put", "place", "stack", "move", "pick", "take", "set", "pour", "open", "close", "grasp", "push"})
+_STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck", "set"})
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
 _SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
 _HANDING = (["give"], ["hand"], ["pass"])
@@ -29,7 +34,8 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(_swapped(tokens)))))))
+    told = _swapped(brought(put_back(together(_in_full(tokens)))))
+    return _handed(_further(_fronted(_sideways(_ordered(_told_once(_lined_up(told)))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -47,6 +53,26 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
         made.append(tokens[at])
         at += 1
     return made
+
+
+def _in_full(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "putting a cup on a tray" as "put a cup on a tray", "then drop in a box" as "then drop it ..."."""
+    words = [token.text for token in tokens]
+    base = base_verb(words[0]) if words[0].endswith("ing") else None
+    leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
+    finite = any(word in lexicon.COPULAS and words[at - 1] not in ("that", "which") for at, word in enumerate(words))
+    if base in _DOING and words[1] in leads and not finite and "," not in words:
+        return [replace(tokens[0], text=base), *tokens[1:]]
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        follower = words[min(at + 1, len(words) - 1)]
+        made.append(token)
+        joined = at > 2 and words[at - 1] in ("then", ",", "and") and words[0] in TAKING
+        if joined and token.text in ("pass", "drop", "place", "put", "move") and follower in ("to", *_PLACING):
+            made.append(replace(token, text="it"))
+        if token.text == "reach" and follower == "for" and (not at or words[at - 1] in ("and", "then", ",")):
+            made[-1] = replace(token, text="grasp", end=tokens[at + 1].end)
+    return [token for at, token in enumerate(made) if not (token.text == "for" and at and made[at - 1].text == "grasp")]
 
 
 def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -104,6 +130,10 @@ def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
         # "That cup belongs on the shelf."
         return [replace(tokens[0], text="put"), *tokens[:belongs], *tokens[belongs + 1 :]]
     for at in range(1, len(words) - 3):
+        goes = words[at] == "go" or (words[at] == "goes" and words[at + 1] in ("into", "onto"))
+        if goes and words[0] == "the" and words[at + 1] in _PLACING and not tokens[at - 1].mark:
+            # "The plates go into the sink."
+            return [replace(tokens[0], text="put"), *tokens[:at], *tokens[at + 1 :]]
         asks = words[at] in ("should", "must", "shall")
         asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
         verb = at + 1 + (words[at + 1] == "to")
@@ -130,10 +160,45 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
     if words[0] not in ("in", "on", "from", "inside", "at") or words[1] not in lexicon.DETERMINERS:
         return tokens
     mark = next(n for n in range(len(tokens)) if tokens[n].mark)
-    verb = next((n for n in range(3, mark - 1) if words[n] in _TAKING), 0)
+    verb = next((n for n in range(3, mark - 1) if words[n] in TAKING), 0)
     if not verb or words[verb + 1] not in lexicon.DETERMINERS or lexicon.COPULAS & set(words[:verb]):
         return tokens
     return [*tokens[verb:mark], *tokens[:verb], *tokens[mark:]]
+
+
+def _further(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "put the cup on the tray, then the bowl" as "..., then put the bowl on the tray"."""
+    verb = next((token for token in tokens[:4] if token.text in _PUTTING), None)
+    made, start, goal = list[Token](), 0, list[Token]()
+    for at, token in enumerate(tokens):
+        made.append(token)
+        if verb is None or token.text not in ("then", "also") or at < 4:
+            continue
+        end = at - (tokens[at - 1].text == "and")
+        end -= tokens[end - 1].text == ","
+        goal = _goal_of(tokens[start:end]) or goal
+        stop = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark or tokens[n].text in ("and", "then"))
+        bare = not any(link_at(tokens, n) for n in range(at + 1, stop))
+        if goal and bare and stop > at + 2 and tokens[at + 1].text in lexicon.DETERMINERS:
+            if token.text == "also":
+                made.pop()
+            again = replace(verb, number=tokens[at + 1].number, start=tokens[at + 1].start, end=tokens[at + 1].start)
+            rest = _further([verb, *tokens[at + 1 : stop], *goal, *tokens[stop:]])
+            return [*made, again, *rest[1:]]
+        start = at + 1
+    return made
+
+
+def _goal_of(tokens: Sequence[Token]) -> list[Token]:
+    """The words of `tokens` that tell where something is put, of known things: "on the tray" of "a cup on a tray"."""
+    for at in range(len(tokens) - 2, 0, -1):
+        link = LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
+        if link is None or link.inverse or link.manner == "source" or link.kind not in SUPPORT_KINDS:
+            continue
+        if at and link_at(tokens, at - 1) > 1:
+            continue
+        return [replace(token, text="the") if token.text in ("a", "an") else token for token in tokens[at:]]
+    return []
 
 
 def _handed(tokens: Sequence[Token]) -> list[Token]:
@@ -143,9 +208,15 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
     given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
-        if token.text == "away" and told & _STOWING and follower in _PLACING:
+        if token.text == "first" and before == ":" and follower in lexicon.DETERMINERS:
+            # "First the bottles, then the tins."
             continue
-        sorted_by = "sort" in told and any(each.text == "into" for each in made)
+        if token.text == "leave" and follower in ("everything", "anything") and "else" in told:
+            made.append(replace(token, text="avoid"))
+            continue
+        if token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the":
+            continue
+        sorted_by = "sort" in told and ("into" in [each.text for each in made] or ":" in told)
         if sorted_by and (
             (token.text == "by" and follower in _SORTS) or (token.text in _SORTS and tokens[at - 1].text == "by")
         ):

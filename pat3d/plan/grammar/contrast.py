@@ -110,10 +110,16 @@ class Contrast(Pronouns):
         groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
         return list(dict.fromkeys(groups))
 
+    def _listed_before(self, at: int) -> list[Item]:
+        """The two single things that stand right before chunk `at`, joined by "and"; nothing where others do."""
+        pair = [self.known.get(head, []) for head in (at - 4, at - 2)]
+        joined = at > 3 and self._chunks[at - 3].kind == "joint" and "and" in self._chunks[at - 3].text
+        return [items[0] for items in pair] if joined and [len(items) for items in pair] == [1, 1] else []
+
     def _before(self, at: int) -> list[Item]:
         """What the clause that chunk `at` belongs to begins with."""
         plural = self._plural_before(at)
         listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
         if len(listed) > 1:
             return [item for head in listed for item in self.known[head]]
-        return list(plural[0].items) if plural else list(self._world.subject)
+        return list(plural[0].items) if plural else list(self._world.together)

@@ -5,15 +5,12 @@ Whether something fits is judged by the outer sizes that the catalogue ships: wa
 
 from __future__ import annotations
 
-import json
 import math
-from functools import cache
-from pathlib import Path
 
-import pat3d
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.modifiers import read_modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, token_text
+from pat3d.plan.grammar.sizes import extents
 from pat3d.plan.grammar.world import Edge, Item, World
 
 _HIGH = 0.75
@@ -31,7 +28,7 @@ def may_cover(world: World, vessel: Item, item: Item) -> bool:
     other = any(kind_of(posture) != "upside_down" or not is_held(posture, lies=False) for posture in said)
     if other or not world.is_a(vessel, lexicon.COVERS) or world.is_table(item):
         return False
-    outer, inner = (_sizes().get(world.noun(each), ()) for each in (vessel, item))
+    outer, inner = (extents(world.noun(each)) for each in (vessel, item))
     if len(outer) != 3 or len(inner) != 3:
         return False
     ratio = _ratio(item) / _ratio(vessel)
@@ -106,10 +103,3 @@ def _turn_over(item: Item) -> None:
 def _ratio(item: Item) -> float:
     """Factor on the size of `item` that its size word asks for."""
     return item.group.modifiers.scale * item.told.scale
-
-
-@cache
-def _sizes() -> dict[str, list[float]]:
-    """Extents [m] of the catalogue's nouns: x, y, z."""
-    path = Path(pat3d.__file__).parent / "assets" / "catalogue" / "sizes.json"
-    return json.loads(path.read_text(encoding="utf-8"))

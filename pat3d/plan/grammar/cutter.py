@@ -99,6 +99,7 @@ class Cutter(Asides):
             follower in (*lexicon.COPULAS, "of", "and", "or")
             or link_at(self._tokens, self._at + 1) > 0
             or self._tokens[self._at + 1].mark
+            or is_marked(follower)
         )
         of_them = follower == "of" and self._word(2) in (*lexicon.PRONOUNS, "these", "those")
         if word in ("each", "both", "all") and of_them:
@@ -347,7 +348,8 @@ class Cutter(Asides):
         """Read "the dog's head": the part places nothing, its owner has been read."""
         read = self._phrases.read(self._at + 1)
         self._at += 1
-        if read is not None and read[0].kind in ("part", "unknown") and not read[0].determined:
+        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in lexicon.ON_RIMS)
+        if read is not None and part and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
                 self._made.unread.append(read[0].words)
             self._at = read[1]
@@ -375,7 +377,7 @@ class Cutter(Asides):
         size = 0
         while not (token := self._tokens[self._at + size]).mark and not link_at(self._tokens, self._at + size):
             if token.text in ("and", "or"):
-                if not is_modifier(self._word(size + 1)):
+                if not is_modifier(self._word(size + 1)) or link_at(self._tokens, self._at + size + 1):
                     break
             elif token.text in ("while", "but", "whereas") or token.text in lexicon.DETERMINERS:
                 break

@@ -1,4 +1,4 @@
-"""What a sentence says is not there, beside what is: "the green cup, not the red one", "neither box is empty".
+"""What a sentence says is not there, or not yet, beside what is: "the green cup, not the red one", "neither box".
 
 What is denied is set aside in a note; what the denial is said of is there ("neither of the two boxes").
 """
@@ -12,6 +12,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.sentences import CONDITIONS
 from pat3d.plan.grammar.vocabulary import Nouns
 
 Told = tuple[list[Token], list[tuple[Token, Token]]]
@@ -24,12 +25,20 @@ _NO = frozenset({"neither", "none"})
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of):
+    for told in (_condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of):
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
             return rest, [*denied, *more]
     return list(tokens), []
+
+
+def _condition(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "once the box is open", which `sentences` has cut off, as "the box is open"."""
+    opens = words[0] in CONDITIONS and "," not in words and (words[1] in lexicon.DETERMINERS or words[1] == "there")
+    if not opens or not set(words) & FINITE:
+        return None
+    return list(tokens[1:]), [(tokens[0], tokens[-2])]
 
 
 def _cleft(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

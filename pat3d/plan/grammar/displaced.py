@@ -29,13 +29,18 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*tokens, tokens[-1]])
     ]
-    return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(_on_another(tokens, nouns)))))))
+    tokens = _another_place(_on_another(tokens, nouns), nouns)
+    return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(tokens))))))
 
 
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a bed, next to which there is a rug" as "a bed, and next to the bed is a rug"."""
     made = list(tokens)
-    if sum(token.text == "which" for token in tokens) > 1:
+    joined = any(
+        tokens[at].text == "and" and (size := link_at(tokens, at + 1)) and tokens[at + 1 + size].text == "which"
+        for at in range(len(tokens) - 2)
+    )
+    if joined and sum(token.text == "which" for token in tokens) > 1:
         # "A plate, to the left of which is a fork and to the right of which a knife": both of the plate.
         return made
     for at in range(len(tokens) - 3, 0, -1):
@@ -84,6 +89,19 @@ def _on_another(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if named and told:
             another = replace(tokens[told + 1], text="another", end=tokens[told + 2].end)
             return [*tokens[: told + 1], another, *tokens[told + 3 :]]
+    return list(tokens)
+
+
+def _another_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "in a jar are nuts, and in another, bolts" as "..., and in another are bolts"."""
+    words = [token.text for token in tokens]
+    for at in range(3, len(words) - 3 if link_at(tokens, 0) else 0):
+        head = at + 1 if words[at + 1] == "another" else at + 2 if words[at + 1 : at + 3] == ["the", "other"] else 0
+        if not head or words[at] not in ("in", "on") or words[at - 1] not in ("and", ",", "while"):
+            continue
+        comma = head + 1 + (nouns.match([words[head + 1]]) is not None)
+        if words[comma] == "," and not any(token.text in _FINITE or token.mark for token in tokens[comma + 1 : -1]):
+            return [*tokens[:comma], replace(tokens[comma], text="are", mark=False), *tokens[comma + 1 :]]
     return list(tokens)
 
 
@@ -173,6 +191,9 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
         end = next(n for n in range(of + 1, len(words)) if tokens[n].mark or (n > of + 1 and (
             words[n] == "and" or (words[n] != "of" and (link_at(tokens, n) or words[n] in _FINITE)))))  # fmt: skip
         landmark = list(tokens[of:end])
+        if tokens[end - 1].text == words[one - 1]:
+            # "a knife to the right and a spoon to the right of the knife": the knife is right of what is said before.
+            continue
         counts = {"a", "an", *lexicon.NUMBERS}
         again = [replace(token, text="the") if token.text in counts and before.text != "the" else token
                  for before, token in pairwise([tokens[two], *landmark])]  # fmt: skip
@@ -252,8 +273,21 @@ def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def fronted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
+    tokens = _places_ahead(tokens)
     verb = next((n for n, token in enumerate(tokens) if token.text in ("is", "are")), 0)
     if verb < 3 or tokens[0].text not in ("stacked", "piled") or not link_at(tokens, 1):
         return list(tokens)
     end = next(n for n in range(verb, len(tokens)) if tokens[n].mark)
     return [*tokens[1:end], replace(tokens[0], text="stacked"), *tokens[end:]]
+
+
+def _places_ahead(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "on the desk, next to the clock, is a cup" as "on the desk, next to the clock is a cup"."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, 0)
+    verb = next((n for n, word in enumerate(words) if word in _FINITE or word == "there"), 0)
+    first = words.index(",") if "," in words else 0
+    place = tuple(words[first + 1 : first + 1 + link_at(tokens, first + 1)]) in LINKS
+    if size and size < first < verb - 2 and words[verb - 1] == "," and place:
+        return [*tokens[: verb - 1], *tokens[verb:]]
+    return tokens

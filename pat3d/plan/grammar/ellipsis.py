@@ -50,6 +50,11 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
             # "the one in the middle" is the middle one.
             told = replace(made[-1].phrase, modifiers=Modifiers(adjectives=(_SIDES[piece.text],)))  # type: ignore[type-var]
             made[-1], phrase = replace(made[-1], phrase=told), told
+        elif made and _told_by_side(piece, made[-1].phrase, [*chunks[: at - 1], *chunks[at + 1 :]]):
+            words = made[-1].phrase.modifiers  # type: ignore[union-attr]
+            told = replace(words, adjectives=(*words.adjectives, _SIDES[piece.text]))
+            phrase = replace(made[-1].phrase, modifiers=told)  # type: ignore[type-var]
+            made[-1] = replace(made[-1], phrase=phrase)
         else:
             made.append(piece)
         gap = _told_before(phrase, chunks[:at]) and follower is not None and follower.kind == "object"
@@ -61,6 +66,16 @@ def _gapped(chunks: Sequence[Chunk]) -> list[Chunk]:
         if (link := next(told, None) or next(verbs, None)) is not None:
             made.append(link)
     return made
+
+
+def _told_by_side(piece: Chunk, phrase: Phrase | None, others: Sequence[Chunk]) -> bool:
+    """Whether `piece` tells `phrase` from its like: "the bowl on the left ..., the one on the right"."""
+    if piece.kind != "place" or piece.text not in ("left", "right") or phrase is None or phrase.kind != "object":
+        return False
+    sides = {one.text for one in others if one.kind == "place"} & {"left", "right"}
+    alike = (one.phrase for one in others if one.phrase is not None)
+    again = any(_the_one(one) or (one.noun == phrase.noun and one.definite) for one in alike)
+    return phrase.definite and not phrase.plural and bool(sides - {piece.text}) and again
 
 
 def _alike_told(one: Phrase | None, other: Phrase | None) -> bool:

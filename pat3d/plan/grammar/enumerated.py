@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier, looks_like_adjective
@@ -17,7 +18,9 @@ from pat3d.plan.grammar.vocabulary import Nouns
 _BOTTLED = frozenset({"ketchup", "mustard", "mayonnaise", "vinegar"})
 """What is made in its bottle."""
 _LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
-_VARIED = frozenset({"other", "different", "differently", "various", "several", "matching", "identical", "separate"})
+_VARIED = frozenset(
+    {"other", "different", "differently", "various", "several", "matching", "identical", "separate", "exactly"}
+)
 _LONGEST = 24
 """Tokens of a list in brackets."""
 
@@ -26,7 +29,8 @@ Item = list[Token]
 
 def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
-    return _oranges(_kinds(_in_brackets(text, _set_off_colours(text, list(tokens)), nouns), nouns), nouns)
+    tokens = _all_alike(_set_off_colours(list(tokens)), nouns)
+    return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
 
 
 def _items(tokens: Sequence[Token]) -> list[Item]:
@@ -130,7 +134,7 @@ def _is_it(listed: Sequence[Item], count: int, generic: bool, nouns: Nouns) -> b
     named = all(nouns.longest([token.text for token in item]) for item in listed)
     headless = all(is_colour_word(item[-1].text) for item in listed)
     total = sum(_number(item[0].text) or 1 for item in listed)
-    return named and not headless and (total == count or (generic and not count))
+    return named and not headless and (generic or total == count)
 
 
 def _joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
@@ -150,7 +154,7 @@ def _joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
     return made
 
 
-def _set_off_colours(text: str, tokens: list[Token]) -> list[Token]:
+def _set_off_colours(tokens: list[Token]) -> list[Token]:
     """`tokens` with "three mugs, red, green and blue, stand" as "three red, green and blue mugs stand"."""
     words = [token.text for token in tokens]
     for at in range(2, len(tokens) - 3):
@@ -165,6 +169,24 @@ def _set_off_colours(text: str, tokens: list[Token]) -> list[Token]:
             colours = [one for item in listed for one in (item[0], tokens[at])][:-1]
             return [*tokens[: at - 1], *colours, tokens[at - 1], *tokens[end:]]
     return tokens
+
+
+def _all_alike(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "everything on the shelf is red: a cup, a vase" as "a red cup and a red vase are on the shelf"."""
+    words = [token.text for token in tokens]
+    colon = words.index(":") if ":" in words else 0
+    verb = next((n for n in range(1, colon) if words[n] in ("is", "are")), 0)
+    told = tokens[verb + 1 : colon]
+    alike = bool(told) and all(is_modifier(token.text) for token in told)
+    if words[0] not in ("everything", "all", "both") or not verb or not alike:
+        return tokens
+    named = []
+    for item in _items(tokens[colon + 1 : -1]):
+        lead = next((n for n, token in enumerate(item) if token.text not in _LEADING), 0)
+        named.append([*item[:lead], *told, *item[lead:]])
+    where = next((n for n in range(1, verb) if link_at(tokens, n)), verb)
+    are = [replace(tokens[verb], text="are")] if where < verb else []
+    return [*_joined(named, False, tokens[colon]), *are, *tokens[where:verb], tokens[-1]]
 
 
 def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:
@@ -187,10 +209,20 @@ def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:
     return tokens
 
 
+def _at_a_place(words: Sequence[str], at: int) -> bool:
+    """Whether "at the bottom" or "on top" stands at token `at`."""
+    place = words[at + 1 : at + 3] if words[at : at + 1] in (["at"], ["in"], ["on"]) else []
+    return bool({*place} & {"top", "bottom", "middle", "centre", "center"})
+
+
 def _oranges(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a red, an orange and a blue box" so that "orange" is a colour there."""
     made = list(tokens)
     words = [token.text for token in tokens]
+    for at in (n for n in range(len(words) - 3) if words[n] == "orange" and _at_a_place(words, n + 1)):
+        if any(is_colour_word(word) and word != "orange" and _at_a_place(words, n + 1) for n, word in enumerate(words)):
+            # "red at the bottom, orange in the middle"
+            made[at] = replace(tokens[at], text="orange-colored")
     for at in (n for n in range(1, len(words) - 2) if words[n] == "orange" and words[n + 1] in (",", "and")):
         before = at
         while before and (words[before - 1] in (",", "and") or words[before - 1] in _LEADING

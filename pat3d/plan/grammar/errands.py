@@ -29,8 +29,10 @@ _HAVING_TO = tuple(tuple(said.split()) for said in (
     "should be", "must be", "needs to be", "need to be", "has to be", "have to be", "is to be", "are to be", "shall be",
     "ought to be", "be",
 ))  # fmt: skip
-_WHERE_IT_IS = (("where", "it", "is"), ("where", "it", "lies"), ("where", "it", "stands"), ("where", "they", "are"),
-                ("where", "they", "lie"), ("where", "they", "stand"), ("as", "it", "is"), ("as", "they", "are"))  # fmt: skip
+_WHERE_IT_IS = tuple(tuple(said.split()) for said in (
+    "where it is", "where it lies", "where it stands", "where they are", "where they lie", "where they stand",
+    "as it is", "as they are",
+))  # fmt: skip
 
 
 def errands(tokens: Sequence[Token]) -> list[Token]:

@@ -6,6 +6,7 @@ from collections import Counter
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import arranging, covers, lexicon, ranks
+from pat3d.plan.grammar.lexing import normalise, singulars, tokenise
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.modifiers import Modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, stands_on_edge
@@ -22,6 +23,14 @@ _KINDS: dict[tuple[int, int], LateralKind] = {
 }  # fmt: skip
 
 
+def _parts(prompt: str) -> str:
+    """Which words of `prompt` name a part, a place or any thing at all."""
+    tables = lexicon.PARTS | lexicon.BACKGROUND | lexicon.ITEMS | lexicon.DETACHED
+    told = [f'"{token.text}" (word {token.number})' for token in tokenise(normalise(prompt))
+            if tables & {token.text, *singulars(token.text)}]  # fmt: skip
+    return f": {', '.join(told[:3])}: a part or a place is none" if told else ""
+
+
 def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Item, str]]:
     """The plan that `world` comes to, and the name of every object.
 
@@ -30,7 +39,10 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     """
     if not world.items():
         aside = f" Set aside: {'; '.join(world.aside)}." if world.aside else ""
-        raise PromptError(f"the prompt names no object to place.{aside} `pat3d catalogue` lists what can be made.")
+        told = _parts(prompt)
+        raise PromptError(
+            f"the prompt names no object to place{told}.{aside} `pat3d catalogue` lists what can be made."
+        )
     for item in world.items():
         like = [other for other in world.items() if other.group.noun == item.group.noun]
         if item.place and len(like) == 1:

@@ -51,8 +51,14 @@ class Goals(Having):
         )
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)
+        # "The red cup on the tray and the blue one on the shelf": the blue one is moved too.
+        cost += 0.9 * any(fact[0] == "rel" and self._told_from_its_like(fact[2]) for fact in modifier.facts)
         cost += sum(
             self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
         )
         facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
         return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
+
+    def _told_from_its_like(self, heads: tuple[int, ...]) -> bool:
+        """Whether `heads` are "the blue one" or "the other": one more of what was named before."""
+        return all(self._phrase(head).kind == "pieces" and self._phrase(head).determined for head in heads)

@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.judging import HEADLESS, Judging
+from pat3d.plan.grammar.lexicon import DISHES, SLENDER
 from pat3d.plan.grammar.links import Link
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
+
+_USUAL = 0.34
+"""Cost of having something below which one thinks of it as on or in its owner."""
+
+_AT_HOME = 0.35
+"""Cost of what something has below which that is where people keep it."""
 
 
 class Having(Judging):
@@ -27,6 +34,9 @@ class Having(Judging):
                 facts.append(("place", fact[1], fact[2], owners))
                 placed |= set(fact[2])
                 said = self._chunks[fact[1]].link
+                if self._chunks[fact[1]].text == "centre" and self._likely.level(self._noun(owners[0])):
+                    # "A table with four chairs and a vase in the middle": no chair is.
+                    cost += 0.9 * any(self._likely.on(self._noun(h), self._noun(owners[0])) > 1.0 for h in fact[2])
                 if said is not None:
                     near = said.kind not in SUPPORT_KINDS and self._likely.level(self._noun(owners[0]))
                     cost += 0.1 if near else self._arcs(said, fact[2], owners)
@@ -40,7 +50,9 @@ class Having(Judging):
             if (
                 fact[0] == "rel"
                 and set(fact[2]) <= set(modifier.heads)
-                and (self._one_of(fact[3], owners) or self._each_of(fact[3], owners))
+                and (
+                    self._one_of(fact[3], owners) or self._each_of(fact[3], owners) or self._each_else(fact[3], owners)
+                )
             ):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
@@ -48,7 +60,14 @@ class Having(Judging):
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
+                lone = len(fact[2]) == 1 or self._link(fact[1]).kind in SUPPORT_KINDS
+                if not lone and self._likely.having(link, self._noun(owners[0]), self._noun(fact[2][0])) < _AT_HOME:
+                    # "A plate with a bun and a cup beside it": the bun is on the plate.
+                    cost += 0.7
                 placed |= set(fact[2])
+                if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
+                    # "A plate with a bun and a cup beside it": the bun is on the plate.
+                    cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
             facts.append(fact)
         having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}
         own = having & set(modifier.heads)
@@ -62,6 +81,13 @@ class Having(Judging):
         placed |= {head for head in modifier.heads if carriers[head] != head and self._phrase(carriers[head]).definite}
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
         cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        if len(modifier.heads) > 2 and not set(carriers.values()) & set(modifier.heads):
+            # "A bench holds a vise, a drill and six screws in a dish": the bench carries the vise.
+            cost += 0.35 if link.manner == "hold" else 0.2
+        owner = self._noun(owners[0])
+        if link.manner == "hold" and owner and not (self._likely.hollow(owner) or self._likely.level(owner)):
+            # "A statue holding a book on a bench": it holds no bench.
+            cost += 0.8 * any(carriers[head] != head for head in modifier.heads)
         lateral = [
             fact for fact in modifier.facts if fact[0] == "rel" and self._link(fact[1]).kind not in SUPPORT_KINDS
         ]
@@ -90,6 +116,11 @@ class Having(Judging):
             )
         return facts, cost
 
+    def _owner_noun(self, owner: int) -> str:
+        """The noun of `owner`, of "each" that of what is named before it."""
+        nouns = (self._noun(at) for at in range(owner, -1, -1) if self._chunks[at].phrase is not None)
+        return next(filter(None, nouns), "")
+
     def _has_again(self, named: Node, modifier: Node) -> bool:
         """Whether `named` has things "with" it, and behind them more "with" it that is placed nowhere."""
         at = modifier.mod[1]  # type: ignore[index]
@@ -97,3 +128,9 @@ class Having(Judging):
         placed = any(fact[0] in ("rel", "place") for fact in modifier.facts)
         said = modifier.cat == "CM" or modifier.flags & {"finite", "which"}
         return had and not placed and not said and self._link(at).manner == "with"
+
+    def _usually_had(self, link: Link, owner: str, child: str) -> bool:
+        """Whether one thinks of `child` as on or in `owner` rather than beside it: cake on a plate, but no fork."""
+        likely = self._likely
+        cutlery = likely.is_a(child, SLENDER) and likely.is_a(owner, DISHES)
+        return likely.having(link, owner, child) < _USUAL and not cutlery

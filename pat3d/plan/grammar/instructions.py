@@ -6,15 +6,19 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
 from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import Item, Manner, Step, World
@@ -46,6 +50,8 @@ _VERBS: dict[str, Manner] = {
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
 """Verbs that are never nouns or adjectives, so that a bare noun may follow."""
+_CHOOSING = frozenset({"hold", "choose", "select", "identify", "find"})
+"""Verbs of what is picked that take it nowhere."""
 _FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
@@ -59,6 +65,12 @@ _ASKING = (
     ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
     ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
+_FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
+"""Verbs of placing that say how several things stand together."""
+_ELSEWHERE = re.compile(r"\b(?:on|onto|in|into|at|from)\b (?!(?:top of )?(?:each|one|another)|an? )|,", re.IGNORECASE)
+"""Words by which a stack is said to stand somewhere, or more is said of it."""
+SHUTTING = frozenset({"open", "close", "shut"})
+"""Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
 _PARTICLES = frozenset({"up", "down", "away", "back", "out", "over", "off", "on", "close"})
 _MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "might", "would"})
@@ -131,11 +143,29 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             # "Leave the mug on the table and move the plate": the mug is there.
             made.append(Clause(tokens=(*left_alone(body), stop)))
             continue
-        begun = max(start, 0)
-        said = text[tokens[begun].start : tokens[end - 1].end].lstrip(", ").removeprefix("and ").removeprefix("then ")
         manner = _VERBS.get(word, "other")
+        body, turned = end_state(body, word, manner)
+        aside = (*aside, *((text[turned.start : turned.end],) if turned is not None else ()))
+        begun = max(start, 0)
+        said = text[tokens[begun].start : max(token.end for token in tokens[begun:end])].lstrip(", ")
+        said = said.removeprefix("and ").removeprefix("then ")
+        if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
+            # "Take the cup to the table"
+            manner = "move"
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
+
+
+def _leads_to_goal(tokens: Sequence[Token]) -> bool:
+    """Whether `tokens` say where something is taken: "to the table", "into the box"."""
+    at = 1
+    while at < len(tokens):
+        size = link_at(tokens, at)
+        link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
+        if link is not None and link.manner == "goal" and link.kind in SUPPORT_KINDS:
+            return True
+        at += size or 1
+    return False
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:
@@ -146,7 +176,8 @@ def _is_deed(word: str, nouns: Nouns) -> bool:
 def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     """Whether "to scrub the bowl" or "while placing the pear" at token `at` names what was not named before it."""
     word, verb = tokens[at].text, tokens[at + 1].text
-    doing = word in _WHILE and verb.endswith("ing") and not link_at(tokens, at + 1) and nouns.match([verb]) is None
+    linked = word != "without" and link_at(tokens, at + 1)
+    doing = word in _WHILE and verb.endswith("ing") and not linked and nouns.match([verb]) is None
     deed = word == "to" and _is_deed(verb, nouns) and verb not in _PURPOSES and tokens[at - 1].text not in _OWING
     if not deed and not (doing and base_verb(verb) is not None):
         return False
@@ -234,6 +265,12 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         "push",
     ):
         return at
+    behind = tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS
+    if follower in _PARTICLES and base in ("open", "close", "pull", "fold", "roll") and behind:
+        return at
+    turns = base in ("turn", "walk", "go", "step") and follower in ("left", "right", "around", "straight", "forward")
+    if turns and (not opening or tokens[at].number == 1):
+        return at
     noun = not tokens[at + 1].mark and (is_modifier(follower) or nouns.match([follower]) is not None)
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
     if base in _CERTAIN and not tokens[at + 1].mark:
@@ -304,6 +341,7 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     specs: list[str] = []
     for step in wanted:
         made = _specs(step, world, names)
+        notes += _unsaid(step, world)
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
@@ -312,6 +350,19 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
         return None, notes
     return (specs[0] if specs else None), notes
+
+
+def _unsaid(step: Step, world: World) -> list[str]:
+    """What `step` asks beyond its task, and what it leaves open."""
+    notes: list[str] = []
+    verb = next((word for word in step.said.lower().split() if _base(word) in _VERBS), "")
+    if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
+        named = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in step.items))
+        if not any(item in world.supports for item in step.items):
+            notes.append(f"{named}: what is in it is not said; it is made empty.")
+    if verb in _FORMING and step.manner == "make":
+        notes.append(f'not modelled: "{verb}": a task asks where each thing is put, not how they stand together.')
+    return notes
 
 
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
@@ -333,6 +384,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         goal = world.tops(step.goal)[-1]
     if step.manner == "stack" and goal is None and len(items) == 2:
         return [f"stack:{names[items[0]]}:{names[items[1]]}"]
+    if step.manner == "stack" and step.link is None and _ELSEWHERE.search(step.said) is None:
+        return _tower(items, names)
     if goal is None or step.link is None:
         return []
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
@@ -347,4 +400,16 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"
     moved = [item for item in items if item is not goal and world.support(item) is not goal]
-    return [f"{kind}:{names[item]}:{names[goal]}" for item in moved]
+    if step.manner == "stack":
+        # "Stack the three cubes on the tray": the second on the first.
+        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + _tower(moved, names)
+    alike = [item for item in step.goal if item in names and item.group is goal.group]
+    # "Put the two cups on the two plates": one on each.
+    goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
+    pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
+    return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
+
+
+def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:
+    """The tasks by which each of `items` comes to stand on the one before it."""
+    return [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(items)]

@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
 from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
-from pat3d.plan.grammar.instructions import Clause
+from pat3d.plan.grammar.instructions import SHUTTING, Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
@@ -25,6 +25,8 @@ _UNHEARD = 0.8
 """What a reading costs in which nothing is said of so many of them."""
 _COUNTING = ("rows", "stacks", "stack", "tower")
 """Forms that may say how many there are, and so are read before all relations."""
+_SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift", "roll", "sweep"})
+"""Verbs that leave a thing on what it is on."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -109,6 +111,7 @@ class Interpreter(Placing):
         if len(world.subject) == 1 and world.subject[0].group.multiplied:
             # "A mug stands at each end of the shelf. Between them ..."
             world.subject = list(world.subject[0].group.items)
+        world.together = self._told_of(reading.heads)
         world.landmark = self._relating.landmark
         world.front = self._said.ref_all(sorted(self._said.fronts))
         if self._clause.manner is None:
@@ -123,10 +126,22 @@ class Interpreter(Placing):
             link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
         )
 
+    def _told_of(self, heads: Sequence[int]) -> list[Item]:
+        """All that the sentence tells of; where that is one thing, also what the sentences before tell of."""
+        world = self._world
+        told = self._said.ref_all([*heads, *(head for each in self._said.clauses.values() for head in each)])
+        told = list(dict.fromkeys(told)) or world.subject
+        if len(told) != 1:
+            return told
+        below = {below for item in (*world.together, *told) for below in world.ancestors(item)}
+        return [*(item for item in world.together if item not in (*told, *below)), *told]
+
     def _form(self, at: int, heads: Sequence[int]) -> None:
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
         phrases = [self._chunks[head].phrase for head in heads]
         meant = all(phrase is not None and (phrase.definite or phrase.kind == "pronoun") for phrase in phrases)
+        if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
+            return
         if self._clause.manner is not None and meant:
             self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
         else:
@@ -196,6 +211,9 @@ class Interpreter(Placing):
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         if not parent_heads:
             parents = [item for item in before if item not in children]
+            if link.kind == "in" and children and parents:
+                # "Take the lid off the pot and put an egg inside": inside the pot.
+                parents = self._that_holds(children[0], parents)
         phrases = [self._chunks[head].phrase for head in child_heads]
         taken = any(chunk.link is not None and chunk.link.manner == "source" for chunk in self._chunks)
         made_up = (
@@ -234,10 +252,23 @@ class Interpreter(Placing):
             link = Link(kind="hangs_from")
         if link.manner == "half" and link.side != "centre":
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
+        ends = any(phrase.part in _ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
+        level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
+        if self._clause.verb in _SLIDING and level and (ends or link.says == "across"):
+            # "Slide the plate to the edge of the table": it is on the table.
+            children = [item for item in children if not self._world.on_floor(item)]
+            if children and all(self._world.support(item) is None for item in children):
+                self._relating.relate(children, Link(kind="on"), parents[:1])
+            self._clause = replace(self._clause, manner="other")
         self._step(children, link, parents)
 
     def _done(self, heads: Sequence[int]) -> None:
         children = self._said.refs_of(heads)
+        if self._clause.verb in SHUTTING and [self._chunks[head].text.lower() for head in heads] == ["it"]:
+            # "Get the spoon from the drawer and close it": the drawer.
+            likely, world = self._world.likely, self._world
+            below = [world.support(item) for item in children]
+            children = [item for item in below if item is not None and likely.closet(world.noun(item))] or children
         out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
         if out and children and all(self._world.support(item) is None for item in children):
             named = f'"{children[0].group.words}"'
@@ -254,15 +285,18 @@ class Interpreter(Placing):
         manner = self._clause.manner
         if manner is None:
             raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
+        if manner == "pick" and len(children) == 1 and children[0].group.multiplied:
+            # "Take one apple from each of two bowls"
+            children = list(children[0].group.items)
         self._world.steps.append(
             Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
         )
 
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
-        if not items and [self._chunks[head].text.lower() for head in heads] in (["it"], ["they"]):
+        if not items and all(self._said.is_open(head) for head in heads):
             # "A mug is on a table. It is red."
-            items = list(self._world.subject)
+            items = self._said.refs_of(heads)
         if not items and told != NO_MODIFIERS:
             said = " ".join(self._chunks[head].text for head in heads)
             self._world.note(f'not understood: how "{said}" is described')
@@ -327,6 +361,10 @@ class Interpreter(Placing):
             # "Two pots with plants in them": as many for each.
             recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
             children = list(group.items)
+        if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
+            # "A teapot and two cups on saucers": the cups are.
+            children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
+        parents = self._as_many(children, link, parents)
         having = self._is_had(at, parent_heads)
         of_all = self._said.speaks_of_each(parent_heads, carrying=True)
         had = share(self._world, link, parents, children, all_of=of_all, having=having)
@@ -350,6 +388,7 @@ class Interpreter(Placing):
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         self._relating.relate(children, link, parents)
+        self._landmarks[at] = self._relating.landmark
 
     def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
         """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
@@ -358,6 +397,19 @@ class Interpreter(Placing):
         owners = [inner for head in parent_heads for inner in self._said.bound[head]]
         links = [chunk.link for chunk in self._chunks[max(owners) : at]]
         return any(link is not None and link.finite and link.inverse for link in links)
+
+    def _as_many(self, children: list[Item], link: Link, parents: list[Item]) -> list[Item]:
+        """`parents` of which the number is not said: as many as the `children`, each with its own, or no more."""
+        group, wanted = parents[0].group, len(self._world.bases(children))
+        own = self._world.is_a(parents[0], lexicon.BENEATH_CUPS, ("placemat",))
+        fresh = group.phrase.plural and not group.counted and not group.phrase.definite and not group.modifiers.palette
+        fresh = fresh and group.height == 1 and all(self._world.support(item) is None for item in group.items)
+        if link.kind not in SUPPORT_KINDS or not fresh or len(parents) != len(group.items) or wanted < 2:
+            return parents
+        if wanted < len(parents) or (own and wanted > len(parents)):
+            recount(self._world, group, wanted)
+            return list(group.items)
+        return parents
 
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
@@ -408,7 +460,10 @@ class Interpreter(Placing):
                 continue
             elif phrase is not None and phrase.kind == "pieces" and link.manner not in ("include", "with") and owners:
                 things.append(head)
-        children = self._said.refs_of(sorted(things)) if owners and link.manner != "include" else []
+        told = bool(owners) and link.manner != "include"
+        # "Stir the pot with it": the pot does not have it before.
+        besides = owner_heads if self._clause.manner is None else ()
+        children = self._said.refs_of(sorted(things), other=besides) if told else []
         if not children:
             return
         if link.manner == "flank":

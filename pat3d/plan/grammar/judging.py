@@ -10,6 +10,7 @@ from pat3d.plan.grammar.lexicon import DEMONSTRATIVES, TELLING
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
+from pat3d.plan.grammar.sizes import too_large
 from pat3d.scene.relations import SUPPORT_KINDS
 
 _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "leans", "has", "holds", "contains"})
@@ -66,7 +67,12 @@ class Judging:
         same = phrase.definite and not phrase.other and any(_same(self._phrase(each), phrase) for each in heads)
         told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
         member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
-        return same or bool(member) or (phrase.head == "each" and len(heads) > 1)
+        return same or bool(member) or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
+
+    def _named_before(self, at: int) -> bool:
+        """Whether several objects are named before chunk `at`: "two boxes with a ball and a cup in each" of them."""
+        named = [head for head in range(at) if self._chunks[head].phrase and self._phrase(head).kind == "object"]
+        return len(named) > 1 or any(self._several(head) for head in named)
 
     def _carrier(self, head: int, facts: tuple[tuple, ...]) -> int:
         """What "with a lamp on two books" has: the books."""
@@ -81,6 +87,10 @@ class Judging:
 
     def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
         costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
+        if link.kind == "in" and link.manner == "place" and len(parents) == 1 < len(children):
+            # What is in one thing together is as unlikely as the unlikeliest.
+            large = any(too_large(self._noun(child), self._noun(parents[0])) for child in children)
+            return max(*costs, 1.3 * large)
         return sum(costs) / max(len(costs), 1)
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
@@ -104,6 +114,10 @@ class Judging:
     def _each_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
         """Whether `heads` is "each", and `owners` are several."""
         return self._phrase(heads[0]).head == "each" and any(self._several(owner) for owner in owners)
+
+    def _each_else(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
+        """Whether `heads` is "each" of what is named up to `owners`: not only of these."""
+        return self._phrase(heads[0]).head == "each" and self._named_before(max(owners) + 1)
 
     def _some_of(self, at: int) -> bool:
         """Whether chunk `at` speaks of some of what is named before: "three of them", "the red ones", "the rest"."""
@@ -148,7 +162,8 @@ class Judging:
         if phrase.definite and not place:
             # "The red one" tells which.
             return not any(head in fact[2] for fact in facts if len(fact) > 2)
-        told = words.colours or words.palette or words.size_word or words.material or set(words.adjectives) - place
+        told = words.colours or words.palette or words.size_word or words.material or words.postures
+        told = told or set(words.adjectives) - place
         return not told and not any(head in fact[2] for fact in facts if len(fact) > 2)
 
     def _only_background(self, heads: tuple[int, ...]) -> bool:

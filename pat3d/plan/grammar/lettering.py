@@ -18,6 +18,8 @@ _WRITTEN = frozenset(
         "marked", "titled", "named", "called", "printed", "written", "inscribed", "engraved", "stating", "states",
     }
 )  # fmt: skip
+_SHOWN = frozenset({"written", "printed", "painted", "drawn", "displayed", "shown", "engraved", "etched", "carved",
+    "stamped", "embossed", "embroidered", "scribbled", "stencilled", "depicted", "inscribed", "visible"})  # fmt: skip
 _LEADING = frozenset(
     {"with", "that", "which", "by", "in", "of", "on", "it", "bearing", "showing", "has", "have", "having", "a", "an",
      "the", "its", "their", "is", "are", "as"}
@@ -39,4 +41,17 @@ def lettering(text: str, tokens: Sequence[Token]) -> list[Span]:
         told = [at for at in range(start, inside[0]) if tokens[at].text in _WRITTEN]
         if told and start > 0:
             made.append((start, inside[-1] + 1))
-    return made
+    return made or _on_it([token.text for token in tokens])
+
+
+def _on_it(words: Sequence[str]) -> list[Span]:
+    """Where "with the title written on it" stands, whose title is no object."""
+    for at, word in enumerate(words):
+        if word != "with":
+            continue
+        shown = next((n for n in range(at + 2, min(at + 8, len(words) - 2)) if words[n] in _SHOWN), 0)
+        if shown and words[shown + 1] in ("on", "in", "across") and words[shown + 2] in ("it", "them", "its", "their"):
+            inside = {",", "on", "in", "and", "with"} & set(words[at + 1 : shown])
+            end = shown + 3 + (words[shown + 2] in ("its", "their"))
+            return [] if inside else [(at, end)]
+    return []

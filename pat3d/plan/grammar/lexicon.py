@@ -124,6 +124,7 @@ PARTS = frozenset({"head", "top", "back", "edge", "side", "middle", "center", "c
     "flesh", "flap", "pedal", "brim", "prong", "seam", "strap", "zipper", "hinge", "crust",
     "rind", "stalk", "fin", "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot",
     "stitching", "engraving", "bite", "residue", "component", "earpiece",
+    "gripper", "effector", "manipulator",
     "yolk", "condensation", "droplet", "underside", "outline", "hue", "highlight", "reflection"})  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal",
@@ -138,8 +139,9 @@ DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"}
 COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "variety", "array", "number", "handful",
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
-    "kinds", "types", "bit"})  # fmt: skip
-ROWS = frozenset({"row", "line", "series"})
+    "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
+    "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""
@@ -157,6 +159,9 @@ SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer
 PLURAL_ONLY = frozenset({"scissors", "glasses", "sunglasses", "eyeglasses", "pliers", "tongs", "tweezers", "headphones",
     "pants", "jeans", "shorts", "trousers", "binoculars", "goggles", "clippers", "pajamas", "shears"})  # fmt: skip
 """One object with a plural name; "a pair of" them is one."""
+
+BUNCHES = frozenset({"grapes", "flowers", "bread", "toast", "cheese", "lettuce", "broccoli", "celery", "garlic"})
+"""Names of one object that are said of an amount: "some grapes" are a bunch, "some bread" is a loaf."""
 
 GENERICS: dict[str, tuple[str, ...]] = {
     "fruit": ("apple", "orange", "banana", "lemon", "pear"),
@@ -280,6 +285,9 @@ COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler",
     "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
     "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can")  # fmt: skip
 """Vessels that, upside down, stand around what they cover."""
+MAIN_DISHES = ("burger", "sandwich", "steak", "fish", "hot dog", "sausage", "pizza", "burrito")
+SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag")
+"""What lies beside a main dish that is "with" it."""
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
@@ -324,7 +332,8 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
 PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
-    "jam": "jam jar", "shampoo": "shampoo",
+    "jam": "jam jar", "shampoo": "shampoo", "trash": "trash can", "garbage": "trash can", "rubbish": "trash can",
+    "tap": "faucet", "pad": "mat",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {
@@ -400,6 +409,14 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
     "filled empty", "used unused", "folded unfolded", "sharp blunt", "smooth rough", "opened closed", "hot iced",
 ))  # fmt: skip
 """Looks of which a thing has one."""
+PARTS_OF: dict[str, tuple[str, ...]] = {
+    "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
+    "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
+    "keyboard": ("laptop",), "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
+    "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
+    "stand": ("globe", "monitor"),
+}  # fmt: skip
+"""What the things after it have as a part, though there are things of that name too."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,
     "second": 1, "third": 2, "fourth": 3, "fifth": 4, "back": -1, "center": 1, "centre": 1,

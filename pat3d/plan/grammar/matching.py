@@ -10,6 +10,8 @@ from pat3d.scene.relations import LateralKind
 
 SAME = {"leftmost": "left", "rightmost": "right"}
 PLACES = {**lexicon.POSITIONS, **lexicon.LEVELS}
+ALONG = {"left": 0, "middle": 1, "center": 1, "centre": 1, "right": 2}
+"""Places of likes from left to right."""
 OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 LATERAL_SIDES: dict[str, LateralKind] = {
     "left": "left_of",
@@ -46,13 +48,14 @@ def same_head(group: Group, phrase: Phrase) -> bool:
 
 
 def line_up(world: World, placed: Item) -> None:
-    """Relate the left one and the right one of a kind to each other."""
-    if placed.place not in ("left", "right"):
+    """Relate the left one, the middle one and the right one of a kind to each other."""
+    if placed.place not in ALONG:
         return
     for other in world.items():
         same = other.group.noun == placed.group.noun and not other.group.cycle
         known = any({edge.child, edge.parent} == {placed, other} for edge in world.laterals)
-        if known:
+        if known or not same or other is placed:
             continue
-        if same and other is not placed and other.place in ("", OPPOSITE[placed.place]):
-            world.laterals.append(Edge(child=placed, kind=LATERAL_SIDES[placed.place], parent=other))
+        order = ALONG[placed.place] - ALONG.get(other.place, 1)
+        if order and other.place in ("", *ALONG):
+            world.laterals.append(Edge(child=placed, kind="left_of" if order < 0 else "right_of", parent=other))

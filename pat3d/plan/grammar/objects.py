@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import difflib
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pat3d.assets.colours import COLOURS
+from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.lexing import singulars
-from pat3d.plan.grammar.modifiers import Modifiers, is_modifier
+from pat3d.plan.grammar.modifiers import Modifiers, is_colour_word, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.unmade import base_verb, is_no_noun, is_quality
+from pat3d.plan.grammar.unmade import base_verb, is_no_noun, is_quality, makes_nothing
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import MAX_OBJECTS, Group, Item, World
 
@@ -52,6 +54,8 @@ class Maker:
             pyramid=phrase.pyramid, proxy=proxy,
         )  # fmt: skip
         group.items = [Item(group=group) for _ in range(count)]
+        if count > 1 and phrase.said in ("grape", "grapes"):
+            world.note(f'"{phrase.words}": every one of the {count} is made as a bunch.')
         if phrase.left_out:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:
@@ -142,9 +146,18 @@ class Maker:
                 number,
             )
         before = phrase.words.lower().split()[-2:-1]
+        if is_colour_word(word) and before not in (["a"], ["an"]) and find_material(word) is None:
+            return UnreadError(
+                f'"{word}" (word {number}) is a colour, and of what is not said where it stands. Say "a {word} cup" or '
+                f'"the cup is {word}".',
+                number,
+            )
         named = bool(before) and (before[0] in lexicon.DETERMINERS or is_modifier(before[0]))
-        doing = base_verb(word) is not None and not named
-        if self.no_thing(word) or (doing and not self._nouns.respelled(word)):
+        one = phrase.words.lower().split()[:1] in (["a"], ["an"], ["one"]) and not word.endswith("s")
+        compound = one and self._names(before) and word not in lexicon.VERBS | {"hang"}
+        doing = base_verb(word) is not None and not (named or compound)
+        stands = phrase.determined and bool({word, *singulars(word)} & lexicon.NOUNS_LIKE_VERBS)
+        if (self.no_thing(word) and not stands) or (doing and not self._nouns.respelled(word)):
             return UnreadError(
                 f'"{word}" (word {number}) is not understood where it stands. Say one thing a sentence: "A mug is on '
                 'the table. A spoon is to the left of the mug."',
@@ -152,11 +165,28 @@ class Maker:
             )
         near = self._nouns.nearest(word)
         hint = f"Nearest: {', '.join(map(_quoted, near))}." if near else "`pat3d catalogue` lists what can be made."
+        whole = phrase.words.lower().endswith(word) and self._names(before) and (compound or base_verb(word) is None)
+        said = f"{before[0]} {word}" if whole else word
         return UnknownNounError(
-            f'"{word}" is not in the catalogue (word {number}). {hint} Bring a mesh of '
+            f'"{said}" is not in the catalogue (word {number}). {hint} Bring a mesh of '
             "your own with pat3d build, or accept a plain box with --allow-proxies.",
             phrase,
         )
+
+    @staticmethod
+    def _names(before: Sequence[str]) -> bool:
+        """Whether the word before the head belongs to its name: the "sewing" of a sewing machine."""
+        plain = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys() | _NO_THINGS
+        if (
+            not before
+            or not before[0].isalpha()
+            or singulars(before[0])
+            or before[0] in plain
+            or is_modifier(before[0])
+        ):
+            return False
+        # "A sewing machine", but not "a delicate machine".
+        return before[0].endswith("ing") or not (looks_like_adjective(before[0]) or makes_nothing(before[0]))
 
     @staticmethod
     def no_thing(word: str) -> bool:
@@ -272,9 +302,15 @@ def tell_colours(world: World, group: Group, told: Modifiers) -> None:
     """Read "blocks, featuring red, blue and green pieces"."""
     shared = told.palette or told.colours
     group.modifiers = group.modifiers.marked_as(told)
-    if not shared:
-        return
     count = len(group.items)
+    coloured = (
+        count > 1
+        and not group.modifiers.palette
+        and all(item.colours or group.modifiers.colours for item in group.items)
+    )
+    if not shared or coloured:
+        # "Four red and four blue blocks: sort the blocks by colour": they have theirs.
+        return
     if count == 1:
         group.modifiers = replace(group.modifiers, colours=(*group.modifiers.colours, *shared))
         return

@@ -44,6 +44,7 @@ def opened(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def formed(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "five cans form a row" as "five cans are in a row"."""
     made: list[Token] = []
+    tokens = _formed_with(tokens)
     for at, token in enumerate(tokens):
         follows = [each.text for each in tokens[at + 1 : at + 4]]
         shape = follows[:1] == ["a"] and bool(set(follows[1:]) & _FORMED) and at > 0
@@ -53,6 +54,21 @@ def formed(tokens: Sequence[Token]) -> list[Token]:
         else:
             made.append(token)
     return made
+
+
+def _formed_with(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "two cubes form a line with a ball" as "two cubes and a ball form a line"."""
+    words = [token.text for token in tokens]
+    for at in range(3, len(words) - 2):
+        formed = words[at] == "with" and words[at - 1] in _FORMED and words[at - 2] in ("a", "one")
+        formed = formed and words[at - 3] in (*_FORMING, "in", "into") and words[0] != "there"
+        verb = next((n for n in range(1, at) if words[n] in _FORMING | lexicon.COPULAS | lexicon.VERBS), 0)
+        end = next(n for n in range(at, len(words)) if tokens[n].mark)
+        plain = not any(link_at(tokens, n) or tokens[n].mark for n in range(verb))
+        if formed and verb and plain and words[verb] != "makes" and _begins(tokens, at + 1):
+            joint = replace(tokens[at], text="and")
+            return [*tokens[:verb], joint, *tokens[at + 1 : end], *tokens[verb:at], *tokens[end:]]
+    return tokens
 
 
 def _begins(tokens: Sequence[Token], at: int) -> bool:

@@ -1,7 +1,7 @@
 """Nouns left out in a clause that is built like one before: "the red box holds a ball, and the blue one a book".
 
-What one clause is about is told by its colour, its place or as one of two, and the other clause's subject in the same way
-and otherwise: "the second", "the bottom one", "the other". So it is another thing of that kind.
+What one clause is about is told by its colour, its place or as one of two, and the other clause's subject in the
+same way and otherwise: "the second", "the bottom one", "the other". So it is another thing of that kind.
 """
 
 from __future__ import annotations

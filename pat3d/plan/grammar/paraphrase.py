@@ -30,7 +30,9 @@ from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.openings import formed, opened
+from pat3d.plan.grammar.outcomes import with_articles
 from pat3d.plan.grammar.restated import bare, become, covering, emptied
+from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
 from pat3d.plan.grammar.surface_places import on_the_surface
@@ -81,8 +83,9 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = enumerated(text, of_things(from_below(tokens, nouns), nouns), nouns)
-    tokens = covering(opened(stated(allowed(_without(bare(tokens, nouns), _SILENT))), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
+    tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
+    tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
@@ -92,23 +95,6 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
     return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
-
-
-def reordered(sentences: Sequence[list[Token]]) -> list[list[Token]]:
-    """`sentences` with "there are three plates" before the "every plate" of which it gives the number."""
-    made = list(sentences)
-    for at, sentence in enumerate(made):
-        words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
-            continue
-        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
-        for before in range(at):
-            told = [token.text for token in made[before]]
-            follows = (two for one, two in zip(told, told[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
-                made.insert(before, made.pop(at))
-                break
-    return made
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
@@ -197,6 +183,15 @@ def _perfect(tokens: Sequence[Token]) -> list[Token]:
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a pear and, between them, a fig" as "a pear and a fig between them"."""
     words = [token.text for token in tokens]
+    for at in range(1, len(words) - 6):
+        comma = at + 2 + link_at(tokens, at + 1) if words[at] == "and" else at
+        second = next((n for n in range(comma + 3, len(words) - 2) if tokens[n].mark), 0)
+        on_it = words[comma] == "," and words[comma - 1] in ("it", "them") and link_at(tokens, comma + 1)
+        if on_it and second and words[second] == "," and words[second + 1] in ("a", "an", "the"):
+            # "and on it, next to a lamp, a clock": on it a clock next to a lamp
+            end = next(n for n in range(second + 1, len(words)) if tokens[n].mark)
+            if not any(link_at(tokens, n) for n in range(second + 1, end)):
+                return [*tokens[:comma], *tokens[second + 1 : end], *tokens[comma + 1 : second], *tokens[end:]]
     for at in range(1, len(words) - 4):
         size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
         comma = at + 3 + size
@@ -204,7 +199,8 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
             continue
         end = next(n for n in range(comma + 1, len(tokens)) if tokens[n].mark)
         named = tokens[comma + 1 : end]
-        if not any(each.text in _FINITE or each.text == "and" or link_at(named, n) for n, each in enumerate(named)):
+        plain = (each.text == "of" or not link_at(named, n) for n, each in enumerate(named))
+        if all(plain) and not any(each.text in _FINITE or each.text == "and" for each in named):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
     return list(tokens)
 

@@ -139,7 +139,9 @@ class PhraseReader:
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
             phrase = self._simple(run, count)
         flags.pop("one", None)
-        if phrase.said in lexicon.PLURAL_ONLY and tokens[start].text == "some":
+        whole = phrase.kind == "object" and bool(phrase.noun) and not phrase.plural
+        if flags.get("vague") and whole and (phrase.said in lexicon.PLURAL_ONLY or phrase.said in lexicon.BUNCHES):
+            # "Some scissors" are one, and "a few grapes" one bunch.
             count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
@@ -244,7 +246,8 @@ class PhraseReader:
                 if cycle:
                     return replace(base, kind="object", cycle=cycle, said=generic, noun="", plural=plural,
                                    modifiers=read_modifiers([*words[:-size], *words[-size:-1]]))  # fmt: skip
-        if len(words) > 1 and head in lexicon.DETACHED and self._nouns.match(words[-2:]) is None:
+        closing = head in lexicon.ON_RIMS and not self._definite
+        if len(words) > 1 and head in lexicon.DETACHED and not closing and self._nouns.match(words[-2:]) is None:
             # "the top dresser drawer", "the cabinet shelf"
             whole = self._simple(run[:-1], count)
             inside = head not in lexicon.STORAGE_PARTS or self._nouns.of_class(whole.noun, lexicon.STORAGE)
@@ -278,6 +281,10 @@ class PhraseReader:
         if any(word in lexicon.SUBSTANCES for word in singular):
             return replace(base, kind="background", substance=head)
         if any(word in lexicon.PARTS for word in singular):
+            whole = self._nouns.match(words[:-1]) if len(words) > 2 and self._definite else None
+            if whole is not None:
+                # "the stand mixer head"
+                return replace(base, kind="object", noun=whole.noun, said=whole.said, part=head)
             return replace(base, kind="part", said=singular[-1])
         stuff = words in _STUFF and count is None and not self._definite
         if all(is_modifier(word) for word in words) and not stuff:
@@ -326,7 +333,7 @@ class PhraseReader:
         if head in lexicon.PICTURES:
             return None
         rows = any(word in lexicon.ROWS for word in singular)
-        if rows and plural and head != "series":
+        if rows and plural:
             number = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
             return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar import arranging, lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
@@ -16,7 +16,7 @@ from pat3d.plan.grammar.postures import token_text
 from pat3d.plan.grammar.references import References
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.shapes import grid_rows
-from pat3d.plan.grammar.world import Group, Item, Sided, World
+from pat3d.plan.grammar.world import UNUSUAL, Group, Item, Sided, World
 from pat3d.scene.relations import LATERAL_KINDS
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
@@ -38,6 +38,8 @@ class Placing:
         self._maker = maker
         self._relating = Relating(world)
         self._said = References(world, chunks, maker, self._relating)
+        self._landmarks: dict[int, tuple[list[Item], bool]] = {}
+        """What the sentence has said a side of, by the relation that says it."""
 
     def _placed(self, at: int, heads: Sequence[int], owner_heads: Sequence[int]) -> None:
         """Read "a plate with a fork on the left", "a mug, and a bowl nearby"."""
@@ -75,7 +77,7 @@ class Placing:
             if not parents and chunk.link.kind in ("in_front_of", "behind"):
                 side = "front" if chunk.link.kind == "in_front_of" else "back"
                 world.sided.append(Sided(items=children, side=side, owner=[], implied=[]))
-            elif not parents and chunk.link.kind == "in" and (inner := self._just_named(at, children)):
+            elif not parents and self._holds_list(chunk, children[0]) and (inner := self._just_named(at, children)):
                 # "a microwave on a counter with a bowl inside"
                 self._relating.relate(inner, chunk.link, children)
             elif not parents:
@@ -100,22 +102,24 @@ class Placing:
         if owners:
             world.sided.append(Sided(items=children, side=side, owner=owners, implied=[]))
             level = world.is_a(owners[0], lexicon.LEVEL, lexicon.SEATS)
-            if level and world.support(children[0]) is None and not world.on_floor(children[0]):
-                world.place(children, world.containment(owners[0]), owners, weak=True)
+            child, owner = children[0], owners[0]
+            stays = not world.on_floor(child) or world.likely.on(world.noun(child), world.noun(owner)) < UNUSUAL
+            if level and world.support(child) is None and stays:
+                world.place(children, world.containment(owner), owners, weak=True)
             return
-        landmark, surface = (
-            self._relating.landmark if self._relating.landmark[0] else ([], False) if begun else world.landmark
-        )
+        before = max((head for head in self._landmarks if head < at), default=None)
+        last = self._relating.landmark if before is None else self._landmarks[before]
+        landmark, surface = last if last[0] else ([], False) if begun else world.landmark
         if landmark and side == "other" and not surface:
             # "On one side of the plate is a fork, on the other a knife."
             side = "right"
         if landmark and side in ("left", "right", "centre") and not set(landmark) & set(children):
             sides = [edge.child for edge in self._world.laterals if edge.parent in landmark]
-            before = [item for item in sides if item not in (*landmark, *children)]
-            if before and {"its", "their"} & set(chunk.words):
+            rivals = [item for item in sides if item not in (*landmark, *children)]
+            if rivals and {"its", "their"} & set(chunk.words):
                 world.note(
                     f'"{" ".join(chunk.words)}" is said of "{landmark[0].group.words}"; it may be said of '
-                    f'"{before[0].group.words}" too.'
+                    f'"{rivals[0].group.words}" too.'
                 )
             half = surface or side == "centre"
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
@@ -188,14 +192,23 @@ class Placing:
             return meant
         fit = [item for item in world.items() if item is not child and (
             world.is_a(item, tuple(lexicon.OPENED))
-            or (world.likely.hollow(world.noun(item)) and within(item) < _HARDLY_IN)
+            or ((world.likely.hollow(world.noun(item)) or world.likely.closet(world.noun(item)))
+                and within(item) < _HARDLY_IN)
         )]  # fmt: skip
         return fit[-1:] or meant
 
+    def _holds_list(self, chunk: Chunk, holder: Item) -> bool:
+        """Whether `holder` with a list and `chunk` behind it has that list there: what is on top of fruit is in it."""
+        hollow = self._world.likely.hollow(self._world.noun(holder))
+        return chunk.text == "inside" or (chunk.text == "on top" and not hollow)
+
     def _just_named(self, at: int, besides: Sequence[Item]) -> list[Item]:
-        """What the noun phrase right before chunk `at` speaks of, where it is none of `besides`."""
-        items = self._said.ref(at - 1) if at and self._chunks[at - 1].kind == "noun" else []
-        return items if items and not set(items) & set(besides) else []
+        """What stands right before chunk `at`, with the list that something has and that it ends; none of `besides`."""
+        if not at or self._chunks[at - 1].kind != "noun":
+            return []
+        had = (things for owners, things in self._said.related if at - 1 in things and min(owners) < min(things))
+        items = self._said.ref_all(sorted(next(had, {at - 1})))
+        return items if not set(items) & set(besides) else []
 
     def _alike(self, children: list[Item]) -> None:
         """Put `children` where the thing named before them is."""
@@ -301,6 +314,10 @@ class Placing:
                 world.beside([right], "next_to", [left])
         else:
             ordered = items[::-1] if chunk.text == "reverse" else items
+            if any(each.kind == "row" and set(each.items) == set(items) for each in world.arranged):
+                # "In a row from right to left"
+                arranging.in_order(world, ordered)
+                return
             world.arrange("row", ordered)
             for left, right in zip(ordered, ordered[1:], strict=False):
                 world.beside([left], "left_of", [right])

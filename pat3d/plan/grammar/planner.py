@@ -25,15 +25,16 @@ from pat3d.plan.grammar.instructions import Clause, clauses, known_verb, task_of
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
-from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.names import catalogue_names
+from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
-from pat3d.plan.grammar.paraphrase import plainer, reordered
+from pat3d.plan.grammar.paraphrase import plainer
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.remarks import Remarks, Span
 from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rules import Grammar
+from pat3d.plan.grammar.sentences import sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.variants import varied
@@ -99,9 +100,9 @@ class GrammarPlanner:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
         _check_language(text)
-        tokens = worked_out(chessmen(tokenise(text)), self._nouns)
+        tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        told = [clause for sentence in reordered(_sentences(tokens)) for clause in self._clauses(text, sentence)]
+        told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         world.notes += [f'not modelled: "{said}"' for said in beside_robot]
@@ -367,21 +368,6 @@ def _known(world: World) -> dict[str, str]:
 
 def _copied(world: World) -> World:
     return copy.deepcopy(world, {id(world.likely): world.likely})
-
-
-def _sentences(tokens: Sequence[Token]) -> list[list[Token]]:
-    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other."""
-    made: list[list[Token]] = [[]]
-    for at, token in enumerate(tokens):
-        words = [each.text for each in tokens[at + 1 : at + 5]]
-        # "Two buckets: the green one holds three balls, the red one is empty."
-        clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
-        told = token.text == "," and any(each.text in FINITE for each in made[-1])
-        begins = clause and (token.text == ":" or told)
-        made[-1].append(replace(token, text=".") if begins else token)
-        if token.text == "." or begins:
-            made.append([])
-    return [sentence for sentence in made if len(sentence) > 1]
 
 
 def _trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:

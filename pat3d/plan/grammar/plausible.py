@@ -75,6 +75,8 @@ class Plausible:
             return 0.7
         if self.level(parent):
             return 0.0
+        if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
+            return 1.5
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
         if self.is_a(parent, _SUPPORTING):
@@ -97,11 +99,11 @@ class Plausible:
             if child != parent and self.is_a(parent, lexicon.BOWLS):
                 return 1.3 if self._vessel(child) or self.is_a(child, lexicon.LEVEL, lexicon.NOT_ON_DISH) else 0.0
             return 0.0
-        if self.closet(parent):
+        if self.closet(parent) or self.is_a(parent, tuple(lexicon.OPENED)):
             return 0.3
         if self.level(parent):
             return 0.5 + self.on(child, parent)
-        return 1.7
+        return 2.0 if self.level(child) else 1.7
 
     def beside(self, child: str, parent: str) -> float:
         """Of the two standing next to each other."""
@@ -146,6 +148,8 @@ class Plausible:
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
+        if self.is_a(child, lexicon.SEATS[-4:]) and self.is_a(parent, lexicon.SEATS[:6]):
+            return 0.1
         if self.floor(child):
             return 0.7
         inside = self.within(child, parent) if self.hollow(parent) or self.closet(parent) else 9.0

@@ -14,6 +14,7 @@ POSTURE = (
     r"|(?:lying|lies|lie|laid|turned|tipped) (?:flat )?(?:on|onto) (?:its|their) (?:side|back|face|head|end)s?(?! of)"
     r"|on (?:its|their) (?:side|edge)s?(?! of)|on edge(?! of)|upside[ -]down"
     r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted|upturned"
+    r"|(?:lying|lies|lie|laid) down"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
     r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"

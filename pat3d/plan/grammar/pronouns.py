@@ -12,6 +12,7 @@ from pat3d.plan.grammar.matching import LATERAL_SIDES
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Item, World
+from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE
 
 _CLOSE = 0.1
 """Readings of a pronoun that differ by less in cost are both told."""
@@ -86,8 +87,10 @@ class Pronouns:
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
-        before = [[item for head in each for item in self.ref(head) if item not in other] for each in heads]
-        before += [self._world.subject]
+        before = [[i for head in each if head < at for i in self.ref(head) if i not in other] for each in heads]
+        groups = {item.group for item in other}
+        together = [item for item in self._world.together if item.group not in groups]
+        before += [together if plural and len(together) > 1 else self._world.subject]
         if plural and len([each for each in before if each]) > 1:
             # "A lamp is on the left, a plant on the right, and between them a radio."
             together = [item for each in reversed(before) for item in each if item not in other]
@@ -116,7 +119,12 @@ class Pronouns:
         if self._relating.landmark[0] and not near:
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values()
-            candidates.append((-0.15 if aside else 0.1, self._relating.landmark[0]))
+            landmark = self._relating.landmark[0]
+            across = link is not None and any(
+                edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals
+            )
+            # "A lamp is left of the sofa and a plant right of it": across the sofa from the lamp.
+            candidates.append((-0.6 if across and aside else 0.3 if child else -0.15 if aside else 0.1, landmark))
         for rank, items in enumerate([each for each in before if each]):
             candidates.append((0.2 * rank + 0.3 * which, items))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
@@ -133,8 +141,8 @@ class Pronouns:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
             # A stack is "it".
-            if plural != (len(self._world.bases(items)) > 1) and not (plural and len(other) == 0):
-                cost += 0.4
+            if plural != (len(self._world.bases(items)) > 1):
+                cost += 0.7 if plural else 0.4
             if not plural and other and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box.
                 cost += 0.6
@@ -142,6 +150,11 @@ class Pronouns:
                 world = self._world
                 pair = (items[0], other[0]) if child else (other[0], items[0])
                 cost += world.likely.relation(link, world.noun(pair[0]), world.noun(pair[1]))
+                if link.kind in LATERAL_KINDS and (
+                    world.support(pair[0]) is pair[1] or world.support(pair[1]) is pair[0]
+                ):
+                    # "A glass of juice and, next to it, a plate": nothing is beside what it carries.
+                    cost += 1.0
             if best is None or cost < best[0]:
                 if best is not None and set(best[1]) != set(items):
                     rival = best
@@ -152,6 +165,10 @@ class Pronouns:
             raise PromptError(
                 f'"{phrase.words}" (word {phrase.number}): nothing before it is meant. Name the thing itself.'
             )
+        pair = best[1][0].group
+        one = len(best[1]) == 1 and pair.height == 1 and not (pair.phrase.plural or pair.phrase.each)
+        if plural and one and pair.said not in lexicon.PLURAL_ONLY:
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}", which is one.')
         if not which and rival is not None and rival[0] - best[0] < _CLOSE and not set(rival[1]) & set(best[1]):
             read, other_words = (each[1][0].group.words for each in (best, rival))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')

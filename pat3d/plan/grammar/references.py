@@ -12,7 +12,17 @@ from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
-from pat3d.plan.grammar.matching import OPPOSITE, PLACES, SAME, colours_of, line_up, position, same_head, same_noun
+from pat3d.plan.grammar.matching import (
+    ALONG,
+    OPPOSITE,
+    PLACES,
+    SAME,
+    colours_of,
+    line_up,
+    position,
+    same_head,
+    same_noun,
+)
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
@@ -61,7 +71,7 @@ class References(Contrast):
                 world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
-            if position(phrase) in ("left", "right") and len(group.items) == 1:
+            if position(phrase) in ALONG and len(group.items) == 1:
                 line_up(self._world, group.items[0])
         elif phrase.kind == "pronoun" and phrase.head == "another":
             self.known[at] = self._another(at, phrase)
@@ -219,6 +229,10 @@ class References(Contrast):
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             return single[0] if single else []
+        together = words == NO_MODIFIERS and not any(head < at for head in self.known)
+        if together and phrase.definite and phrase.count == len(world.together) > 1:
+            # "A cup and a jar are on the desk. Put both in the box."
+            return list(world.together)
         counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
@@ -238,6 +252,12 @@ class References(Contrast):
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
+        if phrase.words.lower().startswith("both ") and (pair := self._listed_before(at)):
+            # "A mug and a cup, both red"
+            self.all.add(at)
+            for item in pair:
+                tell(item, words)
+            return pair
         if phrase.head == "each":
             self.each.add(at)
             plural = self._plural_before(at)
@@ -263,7 +283,7 @@ class References(Contrast):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
-        if where in ("left", "right") and phrase.words.split()[-1] == "one":
+        if where in ("left", "right") and "one" in phrase.words.lower().split():
             # "The left tray carries three muffins, the right one a knife": another tray.
             beside = [group for group in groups if len(group.items) == 1 and group.items[0].place == OPPOSITE[where]]
             if beside:
@@ -400,7 +420,10 @@ class References(Contrast):
             for head in fact[3]:
                 phrase = made[head].phrase
                 words = {phrase.head, *singulars(phrase.head)} if phrase is not None else set()
-                if phrase is not None and storage and phrase.kind == "object" and words & lexicon.STORAGE_PARTS:
+                part_of = [lexicon.PARTS_OF[word] for word in words & lexicon.PARTS_OF.keys()]
+                own = any(self._world.likely.is_a(owner.noun, *part_of) for owner in owners if owner and part_of)
+                stored = storage and bool(words & lexicon.STORAGE_PARTS)
+                if phrase is not None and phrase.kind == "object" and (stored or own):
                     part = replace(phrase, kind="part", said=phrase.head, noun="")
                     made[head] = replace(made[head], phrase=part)
         self._chunks = made

@@ -18,6 +18,8 @@ _HALVES: dict[str, LateralKind] = {
     "left": "left_of", "right": "right_of", "back": "behind", "front": "in_front_of",
 }  # fmt: skip
 """What stands in for a half of what has no surface."""
+_HARDLY_CARRIED = 0.9
+"""Cost of being on what only hands would hold it on, see Plausible.on."""
 
 
 _CORNERS = 4
@@ -93,10 +95,14 @@ class Relating:
                 world.arrange(
                     "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
                 )
-            if link.says == "circle":
+            together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
+            if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
             others = list({item.group: item for item in parents[1:] if item.group is not parents[0].group}.values())
+            if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
+                # A ring around several things is around none of them alone.
+                return
             if link.kind == "around":
                 parents = self._centre(children, parents)
             for other in others if len(children) == 1 and link.kind != "around" else ():
@@ -123,8 +129,21 @@ class Relating:
         world, owner = self.world, owners[0]
         self._settle(children, owners)
         weak = link.manner == "with" and link.kind is None
+        odd = world.likely.on(world.noun(children[0]), world.noun(owner)) >= _HARDLY_CARRIED
         if link.manner == "surround":
             world.beside(children, "around", self._centre(children, owners))
+        elif (
+            link.manner == "hold"
+            and odd
+            and not world.has_inside(owner)
+            and not world.is_a(children[0], lexicon.ON_RIMS)
+        ):
+            # "A statue holding a cup"
+            said = f'"{owner.group.words}" holding "{children[0].group.words}"'
+            world.note(f"not arranged: {said}, which is placed next to it")
+            world.beside(children, "next_to", owners)
+        elif weak and world.is_a(children[0], lexicon.SIDE_DISHES) and world.is_a(owner, lexicon.MAIN_DISHES):
+            world.beside(children, "next_to", owners, weak=True)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
         elif weak and world.is_a(owner, lexicon.DEVICES):
@@ -296,6 +315,10 @@ class Relating:
     def _on_half(self, children: list[Item], side: str, parents: list[Item], said: str) -> None:
         """Read "on the left side of the table": on it when it is a surface, else beside it."""
         world, parent = self.world, parents[0]
+        if side == "centre" and len(parents) > 1:
+            # "In the middle of the plates"
+            self._between(children, parents)
+            return
         level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         on_it = level and not world.on_floor(children[0])

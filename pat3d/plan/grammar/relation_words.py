@@ -7,11 +7,17 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.chunks import Cursor
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES, Link
-from pat3d.plan.grammar.shapes import GRID, PLACES, RINGS, refuse, shape_said
+from pat3d.plan.grammar.shapes import GRID, PLACES, RINGS, grid_size, refuse, shape_said
 from pat3d.scene.relations import LATERAL_KINDS
 
 _FORMED = frozenset({"arranged", "laid", "organized", "organised", "stacked", "built", "assembled"})
 """Words before "in a cross" that make it a shape and no place."""
+_PRINTED = frozenset(
+    {"printed", "engraved", "embroidered", "etched", "inscribed", "embossed", "patterned", "emblazoned"}
+)
+_ORNATE = frozenset({"decorated", "adorned"})
+_GARNISHED = ("cake", "cupcake", "pie", "pizza", "pancake", "waffle", "tree", "bread", "salad", "ice cream")
+"""What is decorated by what lies or hangs on it, besides furniture."""
 _LINED = frozenset({"row", "rows", "line", "lined", "side"})
 """Words of what stands in a line."""
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
@@ -26,6 +32,8 @@ class RelationWords(Cursor):
     def _relation(self) -> bool:
         """Read the longest relation, side or form that begins here, if one does."""
         if self._shape() or self._several() or self._chain():
+            return True
+        if self._word(0) in _PRINTED and self._word(1) in ("with", "by") and self._ornament(2):
             return True
         for size in range(LONGEST_LINK, 0, -1):
             key = self._words(size)
@@ -79,6 +87,8 @@ class RelationWords(Cursor):
 
     def _link(self, key: tuple[str, ...], size: int) -> bool:
         link = LINKS[key]
+        if key[0] in _ORNATE and self._ornament(size):
+            return True
         if key == ("against",) and any(
             chunk.link and chunk.link.says == "leaning_against" for chunk in self._made.chunks
         ):
@@ -93,7 +103,7 @@ class RelationWords(Cursor):
         if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
             return False
         # Verbs that are also nouns ("bears", "houses") open no clause.
-        plain = ("has", "have", "contains", "holds")
+        plain = ("has", "have", "contains", "holds", "carries", "supports")
         if link.finite and len(key) == 1 and self._opens and key[0] not in plain:
             return False
         if self._names(key[-1], self._word(size)) and size == 1 and link.finite:
@@ -113,6 +123,22 @@ class RelationWords(Cursor):
             self._add("have" if inverse else "rel", size, link=link)
         return True
 
+    def _ornament(self, size: int) -> bool:
+        """Leave "decorated with birds", `size` words up to the birds: on a vase they are painted, on a table put."""
+        last = self._last
+        if last is None or last.phrase is None or last.phrase.kind != "object":
+            return False
+        stands = self._nouns.of_class(last.phrase.noun, (*lexicon.FLOOR, *lexicon.SEATS, *_GARNISHED))
+        level = self._nouns.of_class(last.phrase.noun, lexicon.LEVEL)
+        dish = self._nouns.of_class(last.phrase.noun, lexicon.DISHES)
+        shown = self._phrases.read(self._at + size)
+        if shown is None or ((stands or (level and not dish)) and self._word(0) not in _PRINTED):
+            return False
+        end = shown[1]
+        while self._tokens[end].text == "and" and (more := self._phrases.read(end + 1)) and not more[0].determined:
+            end = more[1]
+        return self._leave(end - self._at)
+
     def _shape(self) -> bool:
         """Read "in a circle", "in a grid".
 
@@ -120,6 +146,8 @@ class RelationWords(Cursor):
             PromptError: objects stand in a shape that no plan expresses.
         """
         words = self._words(3)
+        if self._grid():
+            return True
         shape = shape_said(words[-1])
         if words[0] not in ("in", "into", "as") or words[1:2] not in (("a",), ("an",)) or shape is None:
             return False
@@ -137,6 +165,19 @@ class RelationWords(Cursor):
         if self._tokens[after].text in ("around", "surrounding"):
             return False
         self._add("form", 3, text="circle")
+        return True
+
+    def _grid(self) -> bool:
+        """Read "in a 2x3 grid", "in a 2 by 3 grid"."""
+        words = self._words(6)
+        if words[0] not in ("in", "into", "as") or words[1] not in ("a", "an"):
+            return False
+        apart = words[3] == "by" and words[2].isdecimal() and words[4].isdecimal()
+        size = 4 + 2 * apart
+        sides = grid_size([f"{words[2]}x{words[4]}" if apart else words[2], words[size - 1]])
+        if sides is None:
+            return False
+        self._add("form", size, text="rows", size=sides[0], each=sides[1])
         return True
 
     def _several(self) -> bool:

@@ -21,6 +21,7 @@ Span = tuple[int, int]
 _PARTICLES = frozenset({"off", "up", "out", "down", "away", "back", "open", "apart", "together", "over", "in", "on"})
 _IRREGULAR = frozenset({"cut", "broken", "taken", "worn", "torn", "bent", "drawn", "written", "woven", "swept", "built",
     "burnt", "spilt", "shut", "open", "grown", "blown", "made", "spun", "wound", "bound", "hidden", "half-eaten",
+    "empty", "full", "closed",
     "ready", "visible", "similar", "identical", "parallel", "perpendicular", "flush", "askew"})  # fmt: skip
 """Words behind a noun that tell how it is, beside those that end in -ed and -ing."""
 _SORTED = frozenset({"different", "various", "varying", "equal", "similar", "identical", "unequal", "differing"})
@@ -41,6 +42,9 @@ _HEADINGS = lexicon.MEALS | lexicon.BACKGROUND | {"imagine", "spec", "task", "go
     "instruction", "caption", "note", "ready", "done"}  # fmt: skip
 _UNMADE = lexicon.PARTS | lexicon.BACKGROUND | lexicon.SUBSTANCES | lexicon.SIZES.keys() | {"triangle"}
 """Nouns of what is never an object."""
+_SOME = frozenset({"them", "others", "rest", "other"})
+"""Words for what was named before."""
+_GAPS = frozenset({"gap", "space", "distance", "room", "gaps", "spaces"})
 _SAYING = frozenset({"that", "which", "who"})
 
 
@@ -58,7 +62,14 @@ class Remarks:
         made: list[Span] = []
         at = 0
         while at < len(self._words) - 1:
-            end = self._set_off(at) or self._sort(at) or self._manner(at) or self._participle(at) or self._verb(at)
+            end = (
+                self._set_off(at)
+                or self._sort(at)
+                or self._manner(at)
+                or self._apart(at)
+                or self._participle(at)
+                or self._verb(at)
+            )
             if end:
                 made.append((at, end))
             at = max(end, at + 1)
@@ -137,10 +148,27 @@ class Remarks:
             return 0
         return end + 1 if not any(n in self._named for n in range(at, end)) else 0
 
+    def _apart(self, at: int) -> int:
+        """The end of "parallel to each other", "with a gap between them", "from largest to smallest", "one kind"."""
+        words = self._words[at : at + 7]
+        if words[0] in ("parallel", "perpendicular") and words[1] in ("to", "with") and words[2] in ("each", "one"):
+            return at + 4
+        gap = next((n for n in (2, 3) if words[0] == "with" and words[n : n + 1] and words[n] in _GAPS), 0)
+        if gap and words[1] in ("a", "an", "some", "little", "no") and words[gap + 1] in ("between", "in"):
+            between = words[gap + 1 : gap + 3]
+            return at + gap + 3 if between in (["between", "them"], ["in", "between"]) else 0
+        ranked = [n for n in range(1, len(words)) if words[n].endswith("est") and words[n] in lexicon.SUPERLATIVES]
+        if words[0] == "from" and len(ranked) == 2 and "to" in words[ranked[0] : ranked[1]]:
+            return at + ranked[1] + 1
+        kinds = words[0] in ("one", "each") and words[1] in ("kind", "type", "sort", "color", "colour", "size")
+        if kinds and at and self._words[at - 1] == ",":
+            return next(n for n in range(at, len(self._words)) if self._tokens[n].mark)
+        return 0
+
     def _participle(self, at: int) -> int:
         """The end of "marked fragile" at `at`, behind a noun; 0 where nothing of that kind begins there."""
         word = self._words[at]
-        behind = self._behind_noun(at)
+        behind = self._behind_noun(at) or (at > 1 and self._words[at - 1] in _SOME)
         passive = self._words[at + 1] in lexicon.COPULAS and "".join(self._words[at + 2 : at + 3]).endswith("ed")
         saying = word in _SAYING and behind and (passive or self._words[at + 1] not in FINITE)
         participle = word.endswith(("ing", "ed")) or word in _IRREGULAR

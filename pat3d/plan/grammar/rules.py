@@ -24,6 +24,9 @@ _LEAVES = {
     "verb": "V", "there": "E", "which": "W",
 }  # fmt: skip
 
+_HELD = 0.2
+"""Cost of holding something below which it is usual."""
+
 
 def _list_cost(joints: str) -> float:
     """How unusual it is to list with these joints: "," and "&" for "and", ";" for ", and"."""
@@ -95,7 +98,8 @@ class Grammar(Goals):
             cost += (0.0 if len(objects.heads) <= 2 else 0.2) if plural and whole else 1.5
             # "between two dolls, a ball at its feet": the two are the neighbours.
             cost += 0.8 * (len(objects.heads) > 1 and self._phrase(objects.heads[0]).count == 2)
-        if not said.inverse and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
+        ring = said.says == "circle" and set(objects.joints) <= {"&", ","}
+        if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
         flags = frozenset({"finite"} if said.finite else ()) | (objects.flags & {"trailing"})
@@ -175,6 +179,7 @@ class Grammar(Goals):
             kind == "link"
             and (self._link(at).manner == "of" or self._link(at).filling)
             and not modifier.flags & {"finite", "which"}
+            and not (modifier.cat == "CM" and "finite" in named.flags)
             and named.heads != (at - 1,)
         ):
             # "a bowl of oranges": of what stands directly before.
@@ -207,6 +212,8 @@ class Grammar(Goals):
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
                 close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
                 cost += 0.2 if close else 0.45
+                # "A table with four chairs and a vase in the middle": the vase is.
+                cost += 0.4 * (close and self._chunks[at].text == "centre")
             said = (kind, at, named.heads, ()) if kind == "place" else (kind, at, named.heads)
             return Node("L", named.start, cost, named.heads, (*facts, said), named.joints, flags)
         link = self._link(at)
@@ -340,6 +347,10 @@ class Grammar(Goals):
         if whole is None:
             return None
         first = modifier.heads[:1] if link is not None else ()
+        if link is not None and link.kind in SUPPORT_KINDS and len(named.heads) > 1:
+            # "On the bench are a vise, a drill and six screws in a dish": the bench carries the vise.
+            inner = (f for f in named.facts if f[0] == "rel" and f[2] == named.heads)
+            cost += 0.25 * any(self._link(f[1]).kind in SUPPORT_KINDS for f in inner)
         facts = (*whole.facts, ("subject", named.heads, modifier.start), *((("front", first),) if first else ()))
         if named.cat == "CL" and not named.joints.startswith(":"):
             facts = (*facts, ("comma front", modifier.start))
@@ -350,9 +361,30 @@ class Grammar(Goals):
 
     def _fronted_clause(self, modifier: Node, clause: Node) -> Node | None:
         """Read "On a table," + "from left to right: a mug and a bowl"."""
-        if any(fact[0] == "front" for fact in clause.facts):
+        if not any(fact[0] == "front" for fact in clause.facts):
+            return self._fronted(modifier, replace(clause, cat="CL"))
+        # "On the desk next to the laptop is a mug": both places are the mug's.
+        comma = self._chunks[clause.start].kind == "joint"
+        inner = self._chunks[clause.start + comma].link
+        link = self._chunks[modifier.mod[1]].link if modifier.mod[0] == "link" else None  # type: ignore[index]
+        if link is None or inner is None or {"twice"} & clause.flags or {"finite"} & modifier.flags:
             return None
-        return self._fronted(modifier, replace(clause, cat="CL"))
+        if link.inverse or inner.inverse or (inner.kind in SUPPORT_KINDS and inner.manner == "place"):
+            return None
+        nearer = next(fact[1] for fact in clause.facts if fact[0] == "front")
+        there = link.kind in SUPPORT_KINDS and all(
+            self._phrase(head).kind == "object" and not self._likely.floor(self._noun(head)) for head in nearer
+        )
+        placed = (*nearer, *clause.heads) if there else clause.heads
+        facts = (*modifier.facts, ("rel", modifier.mod[1], placed, modifier.heads), *clause.facts)  # type: ignore[index]
+        cost = clause.cost + modifier.cost + self._arcs(link, clause.heads, modifier.heads)
+        cost += 0.0 if comma else self._both_places(modifier.heads, nearer)
+        return Node("S", modifier.start, cost, clause.heads, facts, "", clause.flags | {"twice"})
+
+    def _both_places(self, outer: tuple[int, ...], nearer: tuple[int, ...]) -> float:
+        """Cost of `outer` not being beside `nearer`, which may stand on it."""
+        holds = min(self._likely.having(Link(manner="with"), self._noun(outer[0]), self._noun(head)) for head in nearer)
+        return 0.05 if holds < _HELD else 0.25
 
     def _clause(self, joint: Node, clause: Node) -> Node:
         comma = 0.9 * any(fact[0] == "comma front" for fact in clause.facts)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
@@ -45,7 +46,14 @@ PLACES = frozenset({"wall", "fan", "star", "fort", "castle", "bridge", "arch", "
 """Shapes that things may also be in or on: "a clock in a wall"."""
 RINGS = frozenset({"circle", "ring"})
 """What objects "around" something form anyway."""
+_BUILDING = frozenset({"build", "make", "create", "construct", "form", "assemble"})
 _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assembled", "consisting"})
+
+
+_BUILDING = frozenset({"make", "build", "form", "create", "construct", "assemble", "arrange", "please"})
+_FORMED = frozenset({"pyramid", "tower", "stack", "pile", "row", "line", "column"})
+_OPENING = 6
+"""Words up to what is built: "please build a tall tower"."""
 
 
 def shape_said(word: str) -> str | None:
@@ -94,11 +102,23 @@ def of_what(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "a tower made of blocks" as "a tower of blocks"."""
     kept: list[Token] = []
     at = 0
+    building = tokens[0].text in _BUILDING
     while at < len(tokens):
         before = kept[-1].text if kept else ""
+        formed = building and before in _FORMED and kept[-2].text in ("a", "one") and len(kept) < _OPENING
+        if formed and tokens[at].text in ("with", "from", "using") and tokens[at + 1].text not in lexicon.PRONOUNS:
+            # "Make a pyramid with six cans"
+            kept.append(replace(tokens[at], text="of"))
+            at += 1
+            continue
         head = shape_said(before) or next(
             (one for one in (before, *singulars(before)) if one in lexicon.STACK_NOUNS), ""
         )
+        asked = any(token.text in _BUILDING for token in kept[:3])
+        if head and tokens[at].text == "using" and asked:
+            kept.append(replace(tokens[at], text="of"))
+            at += 1
+            continue
         if head and tokens[at].text in _MADE:
             after = at + 2 if tokens[at + 1].text == "out" else at + 1
             if tokens[min(after, len(tokens) - 1)].text in ("of", "from"):

@@ -18,6 +18,8 @@ _OVER = frozenset({"fall", "tip", "topple", "keel"})
 _OUT = frozenset(
     {"come", "peek", "peep", "poke", "stick", "emerge", "protrude", "jut", "spill", "grow", "hang", "peer"}
 )
+_HELD = {"carried": "carries", "supported": "carries", "contained": "contains", "housed": "contains"}
+"""What had something has it."""
 _DOWN = frozenset({"fall", "drop", "tumble"})
 _THINGS = frozenset({"thing", "things", "object", "objects", "item", "items"})
 _ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last"})
@@ -39,6 +41,11 @@ def _happened(tokens: Sequence[Token]) -> list[Token]:
         after = words[1 + perfect :]
         finite = perfect or not words[0].endswith("ing")
         is_ = replace(tokens[at], text="are" if words[0] == "have" or words[0] == verb else "is")
+        counted = words[1:2] and (words[1] in lexicon.DETERMINERS or words[1] in lexicon.NUMBERS)
+        if words[0] in _HELD and counted and at and made[-1].text not in lexicon.COPULAS and not made[-1].mark:
+            made.append(replace(tokens[at], text=_HELD[words[0]]))
+            at += 1
+            continue
         if verb in _OVER and after[:1] == ["over"] and finite and not postures.is_posture(words[0]):
             lying = replace(tokens[at + perfect], text=postures.token_text("toppled over"))
             made += [is_, lying]

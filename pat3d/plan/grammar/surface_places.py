@@ -14,6 +14,16 @@ _MIDDLES = frozenset({"middle", "center", "centre"})
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
 """What may follow a place that nothing is said of, beside marks."""
+_OTHERS = (
+    ("the", "other"),
+    ("the", "opposite"),
+    ("the", "far"),
+    ("the", "next"),
+    ("a", "second"),
+    ("the", "second"),
+    ("a", "third"),
+    ("the", "third"),
+)
 
 
 def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -22,6 +32,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
     the floor stands in the corner of a room.
     """
+    tokens = _other_places(tokens)
     words = [token.text for token in tokens]
     told = _told(words, nouns)
     level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
@@ -41,6 +52,43 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if owner:
             made += [replace(token, text=word) for word in ("of", "the", *owner.split())]
     return made
+
+
+def _other_places(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a cup in one corner, a pen in another" as "a cup in the corner, a pen in the corner".
+
+    What stands in one corner leaves the others, so they need not be told apart; of ends there are two.
+    """
+    words = [token.text for token in tokens]
+    parts = {n: words[n] for n in range(2, len(words)) if words[n] in ("corner", "edge", "end")
+             and words[n - 1] == "one" and words[n - 2] in _NEAR}  # fmt: skip
+    if not parts:
+        return list(tokens)
+    first = min(parts)
+    part, made, at = parts[first], list(tokens[: first + 1]), first + 1
+    if part != "end":
+        made[-2] = replace(made[-2], text="the")
+    while at < len(tokens):
+        size = _headless(words[at : at + 4], part) if words[at - 1] in _NEAR else 0
+        if not size:
+            made.append(tokens[at])
+            at += 1
+            continue
+        told = ("the", "other", part) if part == "end" else ("the", part)
+        made += [replace(tokens[at], text=word, end=tokens[at + size - 1].end) for word in told]
+        at += size
+    return made
+
+
+def _headless(words: Sequence[str], part: str) -> int:
+    """How many of `words` speak of one more `part`: "another", "the opposite one", "another corner"; 0 where none."""
+    size = 1 if words[:1] == ["another"] else 2 if tuple(words[:2]) in _OTHERS else 0
+    if not size:
+        return 0
+    follower = words[size] if size < len(words) else "."
+    if follower in (part, "one"):
+        return size + 1
+    return size if not follower[0].isalnum() or follower in _BEHIND else 0
 
 
 def _told(words: Sequence[str], nouns: Nouns) -> str:

@@ -30,6 +30,13 @@ _LEADING = frozenset({"in", "at", "with", "by", "for", "during"})
 """What leads to a manner or a time."""
 _AGREEING = frozenset({"matching", "corresponding", "different", "various", "specific", "random", "similar", "certain",
     "equal", "given"})  # fmt: skip
+_OWING = frozenset(
+    {"has", "have", "needs", "need", "is", "are", "was", "were", "want", "wants", "able", "used", "ready"}
+)
+"""Words before "to" that tell of a duty or a fact."""
+_PUTTING = frozenset({"put", "place", "move", "pick", "stack", "take", "bring", "insert", "get", "hold", "set", "lay",
+    "grasp", "grab", "lift", "be", "stand", "lie", "form", "make", "build"})  # fmt: skip
+"""What is done in a scene, and no purpose of it."""
 _MARKED = frozenset({"line", "trail", "path", "goal", "zone", "spot", "mark", "level", "pile", "mixture", "end"})
 """Qualities that are places too."""
 _LOOSE = frozenset({"away", "again", "altogether", "sideways", "outwards", "inwards", "outward", "inward", "upwards",
@@ -64,7 +71,16 @@ class Tails(Remarks):
             if fault < 0 or start <= fault < end or end == fault
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        return [span for span in made if self._says_nothing(*span)][:_TRIED]
+        return [span for span in made if self._says_nothing(*span) or self._is_purpose(*span)][:_TRIED]
+
+    def _is_purpose(self, start: int, end: int) -> bool:
+        """Whether "to sweeten the tea" or "for slicing bread" ends a sentence that names something before it."""
+        word, verb = self._words[start], self._words[start + 1]
+        deed = base_verb(verb) or verb
+        ends = end == len(self._words) - 1 and any(at < start for at in self._named)
+        plain = not (set(self._words[start:end]) & {",", "and", "then"}) and self._words[start - 1] not in _OWING
+        leads = (word == "to" and not verb.endswith("ing")) or (word == "for" and verb.endswith("ing"))
+        return leads and ends and plain and deed not in _PUTTING and (base_verb(verb) or word == "to") is not None
 
     def loose(self, number: int) -> list[Span]:
         """Words around word `number` that name, count and relate nothing, fewest first: "away", "at random places"."""
@@ -73,9 +89,9 @@ class Tails(Remarks):
             return []
         made = [
             (start, end)
-            for end in range(fault + 1, min(fault + 5, len(self._words)))
-            for start in range(max(1, fault - 4), fault + 1)
-            if self._is_loose(start, end)
+            for end in range(fault, min(fault + 6, len(self._words)))
+            for start in range(max(1, fault - 4), fault + 2)
+            if start < end and self._is_loose(start, end)
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
         return [span for span in made if self._says_nothing(*span)][:_TRIED]
@@ -87,6 +103,12 @@ class Tails(Remarks):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
             return False
+        if words in (["in", "the", "row"], ["in", "the", "line"]):
+            return self._behind_noun(start)
+        if len(words) == 1 and is_marked(words[0]):
+            return before in ("hang", "hangs", "hanging", "hung")
+        if len(words) == 1 and after in lexicon.ROWS and before in ("a", "one", "two", "three"):
+            return looks_like_adjective(words[0])
         if len(words) > 1:
             head = {words[-1], *singulars(words[-1])}
             how = is_quality(words[-1]) and not head & (lexicon.PARTS | _MARKED)
@@ -125,6 +147,13 @@ class Tails(Remarks):
         )
         return not indefinite and super().adds_nothing(known)
 
+    def _unknown_deed(self, at: int) -> bool:
+        """Whether a word that no table has stands at `at`, and what it is done to behind it: "to sweeten the tea"."""
+        word, follower = self._words[at], self._words[min(at + 1, len(self._words) - 1)]
+        leads = follower in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
+        known = is_modifier(word) or is_quality(word) or word in JOINERS or link_at(self._tokens, at)
+        return word.isalpha() and leads and not (known or self._begins(at))
+
     def _acts(self, at: int) -> bool:
         """Whether the word at `at` is a verb, and no plural."""
         word = self._words[at]
@@ -160,8 +189,15 @@ class Tails(Remarks):
             return [*finite[follower not in FINITE :], *marks] if behind else []
         if word in _SUBORDINATING or (word in ("by", "for") and follower.endswith("ing")):
             return marks if not link_at(self._tokens, at) or base_verb(follower) is not None else []
-        if word == "to" and base_verb(follower) is not None and not self._named.get(at + 1):
+        if (
+            word == "to"
+            and not self._named.get(at + 1)
+            and (base_verb(follower) is not None or self._unknown_deed(at + 1))
+        ):
             return marks
+        if word in ("it", "they", "he", "she", "you", "we") and behind and base_verb(follower) is not None:
+            # "the drawer it came from"
+            return marks[:1]
         verb = base_verb(word) is not None and at not in self._named
         if word in ("and", "but"):
             predicate = base_verb(follower) is not None and at + 1 not in self._named and follower.endswith("s")
@@ -191,7 +227,9 @@ class Tails(Remarks):
             if not start <= at < end and (found := self._nouns.match(self._words[at : at + size])):
                 words = " ".join(self._words[max(0, at - 4) : at + size])
                 elsewhere[found.noun] = f"{elsewhere.get(found.noun, '')} {words}"
-        told = _TELLING - {"both"} if end == len(self._words) - 1 and not start else _TELLING
+        facing = self._words[start] in ("so", "such") and bool(lexicon.PARTS & set(self._words[start:end]))
+        told = _TELLING - lexicon.POSITIONS.keys() if facing else _TELLING
+        told = told - {"both"} if end == len(self._words) - 1 and not start else told
         if not (elsewhere or self._known) or set(self._words[start:end]) & told:
             return False
         known = {**elsewhere, **{noun: f"{elsewhere.get(noun, '')} {words}" for noun, words in self._known.items()}}
@@ -240,7 +278,7 @@ class Tails(Remarks):
         plain = word.isdecimal() or word == "'s" or is_marked(word) or is_modifier(word) or word in JOINERS
         if plain or makes_nothing(word) or word in lexicon.VAGUE:
             return True
-        general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES
+        general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES | lexicon.ROWS
         if any(form in general for form in forms) or link_at(self._tokens, at):
             return True
         # What goes before another noun describes it.

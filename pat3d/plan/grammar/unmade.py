@@ -131,7 +131,8 @@ _QUALITIES = _words("""
     trial trick trouble truth turmoil twilight twist type types unity universe use utility vacancy value variation
     variety versatility vibe vibrancy vicinity view viewpoint virtue vision vitality void volume warmth wave way
     weather weight welcome whimsy whole width wind winter wisdom wish wonder work workmanship world worth yearning
-    years youth zone
+    years youth zone trip party holiday vacation wedding celebration ceremony meeting lesson counterpart partner mate
+    audience everyone everybody someone somebody anyone guest guests
 """)  # fmt: skip
 """Nouns of what is no thing."""
 _ENDINGS = ("tion", "sion", "ness", "ity", "ance", "ence", "ship", "ism", "hood", "ment")
@@ -158,6 +159,7 @@ _LITTLE = _words("""
     straight such sure than thank thanks that their them themselves then there thereby therefore these they this
     those though through throughout thus till to together too toward towards true twice until up upon upwards us
     usual various very via we well what whatever when whenever where whereas whereby wherein wherever whether while
+    outward outwards inward inwards downward downwards upward everywhere sideways
     whilst who whole whom whose why will with within without would yet you your
 """)  # fmt: skip
 """Words that build a sentence, beside those of the other tables."""

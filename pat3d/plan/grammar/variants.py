@@ -8,13 +8,27 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.modifiers import is_marked, is_modifier
 from pat3d.plan.grammar.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.vocabulary import Nouns
 
+_COLOURS = ("colors", "colours")
 _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     **{("all", "of", the): ("all", the) for the in ("the", "these", "those", "my", "your", "our", "his", "her")},
     ("near", "by"): ("nearby",),
+    ("not", "far", "from"): ("near",),
+    ("not", "far", "away", "from"): ("near",),
+    ("in", "there"): ("in", "it"),
+    ("on", "there"): ("on", "it"),
+    **{("there", seems, "to", "be"): ("there", "is") for seems in ("appears", "appear", "seems", "seem", "happens")},
+    **{("the", "same", measure, "as"): ("as", "big", "as") for measure in ("size", "height", "length", "width")},
+    **{(led, "different", colours): ("of", "different", colours) for led in ("in", "with") for colours in _COLOURS},
+    **{
+        ("each", led, "a", "different", colour): ("of", "different", "colors")
+        for led in ("in", "of", "with")
+        for colour in ("color", "colour")
+    },
     ("atleast",): ("at", "least"),
     ("atmost",): ("at", "most"),
     ("with", "no"): ("without",),
@@ -23,11 +37,22 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     ("bridges", "the", "gap", "between"): ("bridges",),
     ("bridge", "the", "gap", "between"): ("bridges",),
     ("bridging", "the", "gap", "between"): ("bridging",),
-    **{(*seen, "see"): ("there", "are") for seen in (("you", "can"), ("one", "can"), ("we", "can"), ("you",), ("we",))},
+    **{
+        (*seen, "see"): ("there", "are")
+        for seen in (("you", "can"), ("one", "can"), ("we", "can"), ("i", "can"), ("you",), ("we",), ("i",))
+    },
     **{(*seen, "find"): ("there", "are") for seen in (("you", "can"), ("one", "can"), ("you", "will"), ("you",))},
 }
 """What is said, and the words instead."""
-_INNER = frozenset({"there", "are"})
+_RAINBOWS = tuple(
+    tuple(said.split())
+    for colours in _COLOURS
+    for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
+                 f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
+)  # fmt: skip
+_PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
+_SEERS = frozenset({"i", "we", "you", "one"})
+_MADE = frozenset({"made", "crafted", "built", "constructed", "carved", "formed", "fashioned"})
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _HALVES = frozenset({"half", "two", "three", "four", "pieces", "slices", "wedges", "quarters", "halves"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
@@ -36,31 +61,114 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    return _one_adjective(_one_word(_plain(tokens), nouns), nouns)
+    tokens = _compared(_rainbow(_plain(_unpictured(tokens)), nouns), nouns)
+    return _made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
+
+
+def _unpictured(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "in this picture we see a bowl" as "there is a bowl", and without "in the picture" at the end."""
+    words = [token.text for token in tokens]
+    shown = words[:1] == ["in"] and words[1] in ("this", "the") and words[2] in _PICTURES
+    if shown:
+        at = 3 + (words[3] == ",")
+        end = at + 1 + (words[at + 1] == "can")
+        if words[at] in _SEERS and words[end] in ("see", "find"):
+            return [replace(tokens[0], text="there"), replace(tokens[0], text="is"), *tokens[end + 1 :]]
+    if len(words) > 6 and words[-4] == "in" and words[-3] in ("this", "the") and words[-2] in _PICTURES:
+        return [*tokens[:-4], tokens[-1]]
+    return tokens
+
+
+def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "five blocks in the colors of the rainbow" as "five rainbow blocks"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 2):
+        size = next((len(said) for said in _RAINBOWS if tuple(words[at : at + len(said)]) == said), 0)
+        name = next((n for n in (3, 2, 1) if size and n < at and nouns.match(words[at - n : at])), 0)
+        if name:
+            colour = replace(tokens[at], text="rainbow", end=tokens[at + size - 1].end)
+            return [*tokens[: at - name], colour, *tokens[at - name : at], *tokens[at + size :]]
+    return tokens
+
+
+def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a box taller than the jar next to it" as "a box that is taller than the jar next to it"."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        higher = token.text in lexicon.SUPERLATIVES and not token.text.endswith("est") and tokens[at + 1].text == "than"
+        set_off = bool(made) and made[-1].text == ","
+        before = made[-1 - set_off].text if len(made) > set_off else ""
+        if higher and nouns.match([before]) and tokens[at + 2].text in lexicon.DETERMINERS:
+            made = [*made[: len(made) - set_off], replace(token, text="that"), replace(token, text="is")]
+        made.append(token)
+    return made
+
+
+def _seasoned(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "salt and pepper" as "a salt shaker and a pepper shaker"."""
+    words = [token.text for token in tokens]
+    at = next((n for n in range(len(words) - 2) if words[n] == "salt" and "pepper" in words[n + 1 : n + 4]), -1)
+    pepper = words.index("pepper", at) if at >= 0 else 0
+    between = set(words[at + 1 : pepper]) <= {",", "and", "the"}
+    if at < 0 or not between or words[pepper + 1].startswith(("shaker", "mill", "pot", "cellar", "grinder")):
+        return list(tokens)
+    if at and words[at - 1] in ("of", "with", "some"):
+        return list(tokens)
+    made: list[Token] = []
+    for n, token in enumerate(tokens):
+        named = n in (at, pepper)
+        if named and (not n or words[n - 1] not in lexicon.DETERMINERS):
+            made.append(replace(token, text="a"))
+        made += [token, replace(token, text="shaker")] if named else [token]
+    return made
+
+
+def _made_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a frog made out of chocolate" as "a chocolate frog", where the catalogue has chocolate as well."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 2):
+        if words[at] not in _MADE or not nouns.match([words[at - 1]]):
+            continue
+        of = at + 1 + (words[at + 1] == "out")
+        end = of + 2
+        material = words[of + 1] if words[of] in ("of", "from") and end < len(words) else ""
+        alone = tokens[end].mark or link_at(tokens, end) or words[end] in FINITE if material else False
+        if material and alone and nouns.match([material]):
+            name = next(n for n in (3, 2, 1) if nouns.match(words[max(0, at - n) : at]))
+            return [*tokens[: at - name], tokens[of + 1], *tokens[at - name : at], *tokens[end:]]
+    return list(tokens)
 
 
 def _plain(tokens: Sequence[Token]) -> list[Token]:
     made: list[Token] = []
     at = 0
     while at < len(tokens):
-        words = tuple(token.text for token in tokens[at : at + 4])
-        size = next((n for n in (4, 3, 2, 1) if words[:n] in _PLAINER), 0)
+        words = tuple(token.text for token in tokens[at : at + 5])
+        size = next((n for n in (5, 4, 3, 2, 1) if words[:n] in _PLAINER), 0)
         told = _PLAINER[words[:size]] if size else ()
         follower = tokens[min(at + size, len(tokens) - 1)].text
         leads = follower in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
-        if size and _INNER & set(told) and not (made and leads and made[-1].text not in ("that", "which", "as")):
+        if size and told[:1] == ("of",) and made and made[-1].text == ",":
+            # "Six mugs, each in a different color, stand in a row."
+            made.pop()
+            tokens = [*tokens[: at + size], *tokens[at + size + (tokens[at + size].text == ",") :]]
+        if size and told == ("there", "are") and not (made and leads and made[-1].text not in ("that", "which", "as")):
             size = 0
         if size:
-            made += [replace(tokens[at + min(n, size - 1)], text=word) for n, word in enumerate(told)]
+            whole = replace(tokens[at], end=tokens[at + size - 1].end)
+            made += [replace(whole, text=word) for word in told]
             at += size
             continue
         before = made[-1].text if made else ""
         if words[:3] in (("either", "side", "of"), ("each", "side", "of")) and before not in _SIDES:
             # "A lamp stands either side of the bed."
             made.append(replace(tokens[at], text="on"))
-        if words == ("left", "and", "right", "of") and before != "the":
+        if words[:4] == ("left", "and", "right", "of") and before != "the":
             made += [replace(tokens[at], text="to"), replace(tokens[at], text="the")]
         made.append(tokens[at])
+        if words[0] in ("is", "are") and words[1] in ("both", "all", "each") and is_marked(words[2]):
+            # "They are both upside down."
+            at += 1
         if (
             words[0] == "next"
             and words[1] in ("the", "a", "an")
@@ -97,6 +205,11 @@ def _one_adjective(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     while at < len(tokens):
         word, end = tokens[at].text, at + 1
         led = at and tokens[at - 1].text in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
+        if word == "half" and tokens[end].text.endswith(("ed", "en")) and base_verb(tokens[end].text):
+            end += 1
+            made.append(replace(tokens[at], text=f"half-{tokens[end - 1].text}", end=tokens[end - 1].end))
+            at = end
+            continue
         if led and (word in _CUT or (word.endswith("ed") and base_verb(word))) and not nouns.match([word]):
             words = [token.text for token in tokens[at + 1 : at + 3]]
             if words[:1] in (["in"], ["into"]) and words[1] in _HALVES:

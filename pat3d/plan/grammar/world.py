@@ -153,6 +153,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.together: list[Item] = []
+        """What "they" of the next sentence are: all that the sentence before is about, or the sentences before are."""
         self.front: list[Item] = []
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
@@ -219,7 +221,8 @@ class World:
         )
         return small and self.is_table(child) and self.on_floor(child)
 
-    def _has_inside(self, item: Item) -> bool:
+    def has_inside(self, item: Item) -> bool:
+        """Whether it may carry something in it or on it: a vessel, a cupboard, a holder, a level top."""
         noun = self.noun(item)
         return (
             self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED), lexicon.HOLDERS)
@@ -325,7 +328,7 @@ class World:
         if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
             self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
         hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
-        if kind == "in" and not weak and not self._has_inside(parent):
+        if kind == "in" and not weak and not self.has_inside(parent):
             self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
         larger = parent.group.modifiers.scale > child.group.modifiers.scale
         if hollow and not larger and not weak and self.likely.within(self.noun(child), self.noun(parent)) >= CRAMPED:

@@ -1,0 +1,52 @@
+"""Things told apart by a number or a letter behind their name: "put the pear in bin 1 and the fig in bin 2"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_ORDINALS = ("first", "second", "third", "fourth", "fifth")
+
+
+def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of the prompt `text` with "bin 1 and bin 2" as "the first bin and the second bin"."""
+    labels: dict[str, dict[str, None]] = {}
+    found: dict[int, tuple[int, str]] = {}
+    for at in range(1, len(tokens) - 1):
+        label = _label(text, tokens, at)
+        words = [token.text for token in tokens[:at]]
+        size = next((n for n in (3, 2, 1) if n <= at and (match := nouns.match(words[-n:])) and not match.plural), 0)
+        if label and size:
+            name = " ".join(words[-size:])
+            labels.setdefault(name, {})[label] = None
+            found[at] = size, name
+    told = {name: sorted(each) for name, each in labels.items() if 2 <= len(each) <= len(_ORDINALS)}
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        if at not in found or found[at][1] not in told:
+            made.append(token)
+            continue
+        size, name = found[at]
+        named = [replace(each, end=token.end) for each in made[-size:]]
+        ordinal = replace(named[0], text=_ORDINALS[told[name].index(token.text)])
+        before = made[:-size]
+        article = [] if before and before[-1].text in lexicon.DETERMINERS else [replace(ordinal, text="the")]
+        if before and before[-1].text in ("a", "an"):
+            before, article = before[:-1], [replace(ordinal, text="the")]
+        made = [*before, *article, ordinal, *named]
+    return made
+
+
+def _label(text: str, tokens: Sequence[Token], at: int) -> str:
+    """The number or letter at token `at` that ends a phrase; empty where it counts or begins something."""
+    token, after = tokens[at], tokens[at + 1]
+    number = token.text.isdecimal() and len(token.text) < 3
+    letter = len(token.text) == 1 and text[token.start : token.end].isupper() and token.text != "i"
+    ends = after.mark or after.text in FINITE | {"and", "or", "to", "then"} or link_at(tokens, at + 1) > 0
+    return token.text if (number or letter) and ends else ""

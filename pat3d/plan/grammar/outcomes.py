@@ -1,0 +1,121 @@
+"""Where an instruction leads: back on the tray, out of the pot and onto the plate, upside down, into the left bowl."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon, postures
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import LINKS, Link
+from pat3d.plan.grammar.measures import is_measure
+from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.vocabulary import Nouns
+
+TAKING = frozenset({"grasp", "grab", "pick", "take", "lift", "remove", "fetch"})
+_PUTTING = frozenset({"put", "place", "set", "lay", "hang", "bring", "move", "take", "drop", "stack"})
+_SIDES = frozenset({"left", "right", "top", "bottom", "middle", "upper", "lower"})
+_LEADING = frozenset(
+    {"in", "into", "on", "onto", "to", "from", "and", "under", "behind", "pick", "grab", "grasp", "open"}
+)
+_NO_THINGS = lexicon.PARTS - {"shelf", "drawer", "door", "compartment"}
+_TURNING = frozenset({"turn", "rotate", "spin", "twist", "tilt", "roll", "flip", "swivel"})
+_WAYS = frozenset({"clockwise", "counterclockwise", "anticlockwise"})
+_BEFORE = ("lying", "lies", "lie", "laid", "turned", "tipped", "toppled", "knocked", "overturned", "flipped", "facing",
+           "tilted", "slanted", "rotated", "leaning", "inverted")  # fmt: skip
+"""Beginnings of postures that say how a thing is already."""
+
+
+def put_back(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "put the cup back on the tray" as "put the cup onto the tray"."""
+    made: list[Token] = []
+    dropped = False
+    for at, token in enumerate(tokens):
+        back = token.text == "back" and any(each.text in _PUTTING for each in made) and not link_at(tokens, at)
+        behind = back and made[-1].text not in (*lexicon.DETERMINERS, *lexicon.POSSESSIVES, "in", "at", "on")
+        if behind and (link_at(tokens, at + 1) or tokens[at + 1].mark):
+            dropped = True
+            continue
+        plain = dropped and token.text in ("on", "in") and link_at(tokens, at) == 1
+        made.append(replace(token, text=f"{token.text}to") if plain else token)
+        dropped = False
+    return made
+
+
+def together(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "line the cups up on the shelf" as "line up the cups on the shelf"."""
+    words = [token.text for token in tokens]
+    for at in (
+        n for n in range(len(words) - 3) if words[n] == "line" and (not n or words[n - 1] in ("and", ",", "then"))
+    ):
+        end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or words[n] == "up")
+        if words[end] == "up" and end > at + 1 and not any(link_at(tokens, n) for n in range(at + 1, end)):
+            return [*tokens[: at + 1], tokens[end], *tokens[at + 1 : end], *tokens[end + 1 :]]
+    return tokens
+
+
+def brought(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "take the egg out of the pot and onto the plate" as "move the egg ...": it ends on the plate."""
+    words = [token.text for token in tokens]
+    if words[0] in ("take", "lift", "remove") and words[1] in (*lexicon.DETERMINERS, "it", "them"):
+        # "Take the cup to the table"
+        end = next(n for n in range(len(words)) if tokens[n].mark or words[n] == "and")
+        links = [link for n in range(2, end) if (link := _link(tokens, n)) is not None]
+        if [link.manner for link in links if link.manner in ("source", "goal")][-1:] == ["goal"]:
+            return [replace(tokens[0], text="move"), *tokens[1:]]
+    for joint in (n for n in range(3, len(words) - 2) if words[n] in ("and", "then") and _leads_to(tokens, n + 1)):
+        begin = max((n for n in range(joint) if words[n] in TAKING), default=-1)
+        between = (_link(tokens, n) for n in range(begin + 1, joint))
+        from_there = any(link is not None and link.manner == "source" for link in between)
+        if begin >= 0 and from_there:
+            body = [token for token in tokens[begin + 1 : joint] if token.text != "up"]
+            return [*tokens[:begin], replace(tokens[begin], text="move"), *body, *tokens[joint:]]
+    return list(tokens)
+
+
+def _leads_to(tokens: Sequence[Token], at: int) -> bool:
+    link = _link(tokens, at)
+    return link is not None and link.manner == "goal"
+
+
+def _link(tokens: Sequence[Token], at: int) -> Link | None:
+    return LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
+
+
+def with_articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "put red block in left bowl" as "put red block in the left bowl": one of several."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        before, follower = (tokens[at - 1].text if at else ""), tokens[min(at + 1, len(tokens) - 1)].text
+        bare = token.text in _SIDES and nouns.match([follower]) and (before in _LEADING or before in _PUTTING)
+        if bare and not nouns.match([token.text, follower]) and follower not in _NO_THINGS:
+            made.append(replace(token, text="the"))
+        made.append(token)
+    return made
+
+
+def end_state(body: list[Token], verb: str, manner: str | None) -> tuple[list[Token], Token | None]:
+    """`body` of an instruction without how the thing is to be turned, and the words for that where a task is left.
+
+    Before "turn the bottle on its side" it stands, and "put the mug upside down on the tray" finds it upright. What is
+    made by "put a mug upside down on a tray" is so, and "the bottle lying on its side" lies before.
+    """
+    words = [token.text for token in body]
+    made_up = words[:1] and (words[0] in ("a", "an", "some") or words[0] in lexicon.NUMBERS or words[0].isdecimal())
+    if verb in _TURNING and manner == "other":
+        amount = (n for n in range(2, len(body)) if words[n] in _WAYS or is_measure(words[n]) or
+                  (words[n : n + 2] == ["to", "the"] and words[n + 2 :] in (["left"], ["right"])))  # fmt: skip
+        end = next(amount, len(body))
+        body = body[: end - (words[end - 1] == "by")]
+    if manner not in ("make", "move", "other", "stack") or (made_up and manner != "other"):
+        return body, None
+    for at in range(1, len(body)):
+        said = postures.read_posture(words[at]) if postures.is_posture(words[at]) else ""
+        before = words[at - 1]
+        told = before in lexicon.COPULAS | lexicon.DETERMINERS | lexicon.POSSESSIVES or is_modifier(before)
+        if said and not told and not said.startswith(_BEFORE):
+            rest = [*body[:at], *body[at + 1 :]]
+            goes = manner != "other" and any(link_at(rest, n) for n in range(1, len(rest)))
+            return rest, body[at] if goes else None
+    return body, None

@@ -1,0 +1,119 @@
+"""A prompt cut into sentences, each told where the one before it is known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.links import FINITE, LINKS
+from pat3d.plan.grammar.modifiers import is_colour_word
+from pat3d.plan.grammar.unmade import base_verb
+from pat3d.plan.grammar.vocabulary import Nouns
+
+CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
+"""Words that open what has to be before something is done."""
+
+
+def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
+    """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
+    return _reordered(_conditions(_labelled(_cut(tokens, nouns))))
+
+
+def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
+    """`tokens` cut after every stop, and before what a colon begins to tell of the one and of the other.
+
+    So is "The left box holds a ball, the right box is empty", where the right box is not held.
+    """
+    made: list[list[Token]] = [[]]
+    for at, token in enumerate(tokens):
+        words = [each.text for each in tokens[at + 1 : at + 5]]
+        # "Two buckets: the green one holds three balls, the red one is empty."
+        clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
+        told = token.text == "," and any(each.text in FINITE for each in made[-1])
+        begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
+        begins = begins or (_tells_state(tokens, at, nouns) and any(_holds(each) for each in made[-1]))
+        made[-1].append(replace(token, text=".", mark=True) if begins else token)
+        if token.text == "." or begins:
+            made.append([])
+    return [sentence for sentence in made if len(sentence) > 1]
+
+
+def _holds(token: Token) -> bool:
+    link = LINKS.get((token.text,))
+    return link is not None and link.finite and link.inverse
+
+
+def _tells_state(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether "the right box is empty" follows a comma or "and" at token `at`."""
+    first = at + 1 + (tokens[at].text == "," and tokens[at + 1].text in ("and", "but", "while"))
+    words = [token.text for token in tokens[first : first + 7]]
+    verb = next((n for n, word in enumerate(words) if word in ("is", "are")), 0)
+    if tokens[at].text not in (",", "and", "but", "while") or verb < 2 or verb > len(words) - 3:
+        return False
+    named = words[0] in lexicon.DETERMINERS and nouns.match([words[verb - 1]]) is not None
+    plain = not any(tokens[n].mark or link_at(tokens, n) for n in range(first, first + verb))
+    state = words[verb + 1] == "empty" or is_colour_word(words[verb + 1])
+    return named and plain and state and tokens[first + verb + 2].mark
+
+
+def _goes(tokens: Sequence[Token], at: int) -> bool:
+    """Whether "the plates go in the sink" stands at token `at`."""
+    verb = next((n for n in range(at, min(at + 8, len(tokens) - 1)) if tokens[n].text in ("go", "goes")), 0)
+    return bool(verb) and not any(token.text == "." for token in tokens[at:verb]) and link_at(tokens, verb + 1) > 0
+
+
+def _labelled(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "object A: a cracker box. B is behind it" as "a cracker box. The cracker box is behind it"."""
+    names: dict[str, list[Token]] = {}
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        named = next((n for n in (0, 1) if words[n + 1 : n + 2] == [":"] and len(words[n]) == 1), -1)
+        if named >= 0 and (named == 0 or words[0] in ("object", "item", "thing")) and len(words) < named + 7:
+            names[words[named]] = sentence[named + 2 : -1]
+            made.append(list(sentence[named + 2 :]))
+            continue
+        whole: list[Token] = []
+        for token in sentence:
+            named_so = names.get(token.text, [])
+            begun = [each for each in named_so if each.text not in lexicon.DETERMINERS]
+            said = [replace(token, text=each.text) for each in begun]
+            whole += [replace(token, text="the"), *said] if said else [token]
+        made.append(whole)
+    return made
+
+
+def _conditions(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "once the box is open, drop the pen in it" as two sentences."""
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        comma = words.index(",") if "," in words else 0
+        after = comma + 1 + (words[comma + 1 : comma + 2] in (["then"], ["please"]))
+        asked = comma > 3 and base_verb(words[after]) == words[after]
+        opens = words[0] in CONDITIONS and (words[1] in lexicon.DETERMINERS or words[1] == "there")
+        if opens and asked and set(words[1:comma]) & FINITE:
+            made += [[*sentence[:comma], replace(sentence[comma], text=".")], list(sentence[after:])]
+        else:
+            made.append(sentence)
+    return made
+
+
+def _reordered(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "there are three plates" before the "every plate" of which it gives the number."""
+    made = list(told)
+    for at, sentence in enumerate(made):
+        words = [token.text for token in sentence]
+        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
+            continue
+        nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
+        for before in range(at):
+            before_it = [token.text for token in made[before]]
+            follows = (two for one, two in zip(before_it, before_it[1:], strict=False) if one in ("each", "every"))
+            if any(word in nouns for word in follows):
+                made.insert(before, made.pop(at))
+                break
+    return made

@@ -1,0 +1,149 @@
+"""Several places of one thing, each in a clause of its own: "behind the plate, left of the bowl, and near the can".
+
+A clause may open with them too: "on the table, to the left of the plate, lies a fork".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import FINITE, LINKS
+from pat3d.plan.grammar.sizes import extents
+from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
+
+_LARGER = 1.5
+"""Longest side of what carries something over that of this, at least."""
+_THERE = (["there", "is"], ["there", "are"], ["there's", "a"])
+
+
+def in_several_places(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of one sentence with every place of its subject said of it, behind it."""
+    return _each_place(_turned(list(tokens), nouns))
+
+
+def _turned(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "on the table next to the plate lies a fork" as "a fork lies on the table next to the plate"."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, 0)
+    first = _plain(words[:size])
+    if not first or words[size] not in lexicon.DETERMINERS:
+        return tokens
+    second = next((n for n in range(size + 1, len(words)) if link_at(tokens, n) and words[n] != "of"), 0)
+    comma = bool(second) and words[second - 1] == ","
+    if not second or any(each.mark or each.text in FINITE for each in tokens[size : second - comma]):
+        return tokens
+    link = words[second : second + link_at(tokens, second)]
+    after = second + len(link)
+    verb = next((n for n in range(after, len(words)) if tokens[n].mark or words[n] in FINITE or words[n] == "there"), 0)
+    verb += tokens[verb].text == ","
+    there = words[verb : verb + 2] in _THERE
+    beside = LINKS.get(tuple(link))
+    if beside is None or not (beside.kind in LATERAL_KINDS or beside.manner in ("between", "half")):
+        return tokens
+    if not (there or words[verb] in FINITE) or words[after] not in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
+        return tokens
+    within = _lies_on(words[size : second - comma], words[after : verb - (words[verb - 1] == ",")], nouns)
+    name = verb + 1 + there
+    if not (comma or within) or words[name] not in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
+        return tokens
+    end = next(n for n in range(name + 1, len(words)) if tokens[n].mark or link_at(tokens, n) or words[n] in FINITE)
+    stop = next(n for n in range(end, len(words)) if words[n] == "." or (words[n] == "," and words[end] != ","))
+    had = tokens[end:stop] if words[end] != "," else []
+    is_ = replace(tokens[verb], text=words[verb + 1] if there else words[verb])
+    places = [tokens[: second - comma], tokens[second : verb - (words[verb - 1] == ",")]]
+    joint = [replace(tokens[second], text=",", mark=True), replace(tokens[second], text="and", mark=False)]
+    again = [*_known(tokens[name:end]), is_, *places[1]]
+    return [*tokens[name:end], *had, is_, *places[0], *joint, *again, *tokens[end if words[end] == "," else stop :]]
+
+
+def _plain(words: Sequence[str]) -> bool:
+    """Whether `words` say where something is carried, or beside what."""
+    link = LINKS.get(tuple(words))
+    return link is not None and link.manner in ("place", "under") and not link.finite and bool(link.kind or link.says)
+
+
+def _lies_on(one: Sequence[str], other: Sequence[str], nouns: Nouns) -> bool:
+    """Whether what `other` names is so small beside what `one` names that it may be on it."""
+    found = [
+        next((match for size in (3, 2, 1) for end in (len(words), len(words) - 1)
+              if (match := nouns.match(list(words[max(end - size, 0) : end])))), None)
+        for words in (one, other)
+    ]  # fmt: skip
+    below, upon = (extents(match.noun) if match else () for match in found)
+    return bool(below and upon) and max(below) > _LARGER * max(upon)
+
+
+def _known(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` of a phrase, spoken of as known: "the fork and the knife" for "a fork and a knife"."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        counted = token.text in lexicon.NUMBERS and token.text not in ("a", "an")
+        if token.text in ("a", "an") or (counted and (not at or tokens[at - 1].text != "the")):
+            made.append(replace(token, text="the"))
+        if token.text not in ("a", "an"):
+            made.append(token)
+    return made
+
+
+def _each_place(tokens: list[Token]) -> list[Token]:
+    """`tokens` with "the mug is behind the plate, left of the bowl, and near the can" as three clauses.
+
+    "It is" behind a comma is said of the same.
+    """
+    words = [token.text for token in tokens]
+    verb = next((n for n in range(1, len(words)) if tokens[n].mark or words[n] in FINITE or link_at(tokens, n)), 0)
+    if words[verb] not in FINITE or words[0] not in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
+        return tokens
+    after = verb + 1 + (words[verb + 1] in lexicon.PARTICIPLES and not link_at(tokens, verb + 1))
+    if not _says_where(tokens, after):
+        return tokens
+    parts: list[tuple[int, int]] = []
+    starts = [after, *(n + 1 + (words[n + 1] == "and") for n in range(after, len(words) - 1) if words[n] == ",")]
+    for start, stop in zip(starts, [*starts[1:], len(words) - 1], strict=True):
+        end = stop - (start != starts[-1]) * (1 + (words[stop - 1] == "and"))
+        begin = start + 2 * (words[start : start + 2] in (["it", "is"], ["they", "are"]))
+        if not _says_where(tokens, begin) or any(word in FINITE for word in words[begin:end]):
+            return _each_landmark(tokens, verb, after)
+        parts.append((begin, end))
+    if len(parts) < 3:
+        return tokens
+    made = list(tokens[: parts[0][1]])
+    for start, end in parts[1:]:
+        made += [replace(tokens[start], text=",", mark=True), replace(tokens[start], text="and", mark=False)]
+        made += [*_known(tokens[:verb]), tokens[verb], *tokens[start:end]]
+    return [*made, tokens[-1]]
+
+
+def _each_landmark(tokens: list[Token], verb: int, after: int) -> list[Token]:
+    """`tokens` with "is behind the plate, the bowl and the can" one by one."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, after)
+    link = LINKS.get(tuple(words[after : after + size]))
+    parts: list[list[Token]] = [[]]
+    for token in tokens[after + size : -1]:
+        if token.text in (",", "and"):
+            parts.append([])
+        else:
+            parts[-1].append(token)
+    named = [part for part in parts if part]
+    plain = all(part[0].text in lexicon.DETERMINERS for part in named) and not any(
+        each.mark or each.text in FINITE or link_at(part, n) for part in named for n, each in enumerate(part)
+    )
+    if link is None or link.kind not in LATERAL_KINDS or link.manner != "place" or len(named) < 3 or not plain:
+        return tokens
+    made = [*tokens[: after + size], *named[0]]
+    for part in named[1:]:
+        made += [replace(part[0], text=",", mark=True), replace(part[0], text="and", mark=False)]
+        made += [*_known(tokens[:verb]), *tokens[verb : after + size], *part]
+    return [*made, tokens[-1]]
+
+
+def _says_where(tokens: Sequence[Token], at: int) -> bool:
+    size = link_at(tokens, at)
+    link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
+    return link is not None and not link.inverse and not link.finite
