@@ -252,14 +252,16 @@ class _Arranger:
         free = [kid for kid in names if kid not in self.fixed]
         groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]
         wishes = self._wishes(group.name, {one.name: one for one in groups})
-        settings = place_settings({one.name: one for one in groups}, laterals, wishes)
+        regions = flat_regions(group.root)
+        radius = float(regions[0].surface.half_size[0]) if regions[0].surface.disc else None
+        settings = place_settings({one.name: one for one in groups}, laterals, wishes, radius=radius)
         angles = {name: angle for one in settings for name, angle in one.turns.items()}
         groups = [turned(one, angles[one.name]) if one.name in angles else one for one in groups]
         laid = {name for one in settings for name in one.formation.members}
         top = Top(
             supports=[*group.members, *(member for other in given for member in other.members)],
             root=group.root,
-            regions=flat_regions(group.root),
+            regions=regions,
             given=given,
             turnable={kid for kid in free if not self.children[kid]},
             gap=self.gap,

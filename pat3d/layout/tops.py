@@ -259,6 +259,7 @@ def _on_region(
     items = [item_of(group, turnable=group.name in top.turnable) for group in share]
     pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
     every = [*(item_of(group, turnable=False) for group in top.given), *items]
+    pinned |= {name: at for one in top.settings for name, at in one.origins.items() if name in names}
     homes = {one.formation.members[0]: one.home for one in top.settings}
     own = top.wishes.among(names)
     laid = replace(own, formations=(*own.formations, *(one.formation for one in top.settings)))

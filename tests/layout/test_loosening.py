@@ -13,6 +13,7 @@ from pat3d.layout.loosening import APART, REACH, loosen
 from pat3d.layout.place_settings import place_settings
 from pat3d.layout.surfaces import NOTHING, arrange_flat, side_holds
 from pat3d.layout.turns import free_turn
+from pat3d.scene.asset import Region
 from pat3d.scene.model import Relation
 from tests.layout.things import asset, block, shapes, table
 
@@ -132,7 +133,7 @@ def cutlery(noun):
     return asset(noun, shapes.box(0.2, 0.02, 0.01))
 
 
-def laid(names):
+def laid(names, board=None):
     made = {
         name: asset("plate", shapes.cylinder(0.13, 0.02)) if name.startswith("plate")
         else asset("glass", shapes.cylinder(0.035, 0.1)) if name.startswith("glass")
@@ -140,7 +141,7 @@ def laid(names):
         else cutlery(name.split()[0])
         for name in names
     }  # fmt: skip
-    board = table()
+    board = board or table()
     on = tuple(Relation(child=name, kind="on", parent="table") for name in made)
     return arrange({"table": board, **made}, on, seed=1).poses
 
@@ -161,6 +162,30 @@ def test_the_second_place_is_across_the_table_and_turned_round():
     assert poses["plate 1"].position[1] < 0.0 < poses["plate 2"].position[1]
     assert poses["fork 1"].position[0] < poses["plate 1"].position[0]
     assert poses["fork 2"].position[0] > poses["plate 2"].position[0]
+
+
+def round_table(radius):
+    return asset("table", shapes.cylinder(radius, 0.7, sides=48),
+                 Region(kind="on", shape="disc", floor=(0, 0, 0.7), half_size=(radius, radius)))  # fmt: skip
+
+
+@pytest.mark.parametrize("seats", [3, 4])
+def test_three_and_four_places_are_spread_evenly_around_a_round_table(seats):
+    names = [f"{noun} {k}" for k in range(seats) for noun in ("plate", "fork", "knife", "glass")]
+    poses = laid(names, round_table(0.46))
+    plates = np.array([poses[f"plate {k}"].position[:2] for k in range(seats)]) @ [1, 1j]
+    np.testing.assert_allclose(plates / plates[0], np.exp(2j * np.pi * np.arange(seats) / seats), atol=1e-6)
+    assert np.angle(plates[0]) == pytest.approx(-math.pi / 2)
+    for k in range(seats):
+        # As who sits there has them: x to the right, y to the middle of the table.
+        own = {noun: np.array(poses[f"{noun} {k}"].position[:2]) @ [1, 1j] for noun in ("fork", "knife", "glass")}
+        seen = {noun: (at - plates[k]) / (plates[k] * 1j / abs(plates[k])) for noun, at in own.items()}
+        assert seen["fork"].real < -0.13 < 0.13 < seen["knife"].real
+        assert seen["glass"].real > 0.0
+        assert seen["glass"].imag > 0.1
+        assert yaw_of(poses[f"knife {k}"].rotation) == pytest.approx(
+            math.remainder(np.angle(plates[k]) + math.pi, 2 * math.pi), abs=1e-6
+        )
 
 
 def test_a_fork_that_is_told_to_be_right_of_the_plate_is_no_part_of_its_place():

@@ -228,7 +228,11 @@ class _Auditor(Compared):
         if lead[1:] == ["of"]:
             # "Half of the eight blocks are red", "two of them"
             return NUMBERS.get(lead[0], 1), own or self.plan.objects
-        return (len(own) if words[-1] in ("are", "were") and "and" not in words else 1), own or self.plan.objects
+        if words[-1] not in ("are", "were") or "and" in words:
+            return 1, own or self.plan.objects
+        # "Two cups are red. The other cups are blue."
+        told = subject[0].number or int("other" in subject[0].lead) or len(own)
+        return min(len(own), told), own or self.plan.objects
 
     # Objects
 
@@ -248,6 +252,7 @@ class _Auditor(Compared):
             ):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
+            least = max(least, *(mention.number or 1 for mention in mentions))
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [

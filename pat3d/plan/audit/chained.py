@@ -20,6 +20,9 @@ def chained(it: Compared) -> Iterator[tuple[int, str]]:
     claims = [claim for claim in it.said.claims if claim.place in _CHECKED]
     for one, other in zip(claims, claims[1:], strict=False):
         subjects = _joined(it, one, other, claims) or _fronted(it, one, other)
+        if other.of is not None and other.of.noun in it.furniture and subjects == _fronted(it, one, other):
+            # "On the rug next to the bed stands a lamp": the rug may be next to the bed.
+            continue
         if subjects and other.of is not None and one.of is not None and not it.excused(other):
             yield from _of_the_landmark(it, one.of, other, subjects)
     yield from _on_which(it)

@@ -166,10 +166,15 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         before = [mention for mention in it.said.mentions if mention.end <= at]
         ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
         named = ones[-1:] if word in ("other", "others") and ones else before
-        kinds = [{obj.noun for obj in it.which(mention)} for mention in named]
-        likes = [[obj for obj in it.plan.objects if obj.noun in nouns] for nouns in kinds]
+        kinds = [{_called(obj) for obj in it.which(mention)} for mention in named]
+        likes = [[obj for obj in it.plan.objects if _called(obj) in names] for names in kinds]
         if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
             yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
+
+
+def _called(obj: PlannedObject) -> str:
+    """What `obj` is called by: a bowl with fruit is made as a fruit bowl, and is a bowl."""
+    return obj.name.rstrip(" 0123456789").split()[-1]
 
 
 def on_the_other(it: Compared) -> Iterator[tuple[int, str]]:
@@ -336,6 +341,9 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         if word not in EACH:
             continue
         place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
+        if {"but", "except", "save"} & set(it.said.words[at + 1 : at + 4]):
+            # "Every cup but one": of one less.
+            continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
         behind = [mention for mention in it.said.mentions if mention.start > at]
         if place in ENDS or place in CORNERS:
