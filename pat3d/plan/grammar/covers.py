@@ -5,7 +5,6 @@ Whether something fits is judged by the outer sizes that the catalogue ships: wa
 
 from __future__ import annotations
 
-
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.modifiers import read_modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, token_text
