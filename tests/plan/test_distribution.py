@@ -4,6 +4,7 @@ from collections import Counter
 
 import pytest
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
 
@@ -114,3 +115,45 @@ def test_two_are_moved_where_each_is_told_by_its_colour(planner):
     assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
     assert not any(rel.supports for rel in plan.relations)
     assert any("place:red mug:tray, place:blue mug:shelf" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "held", "number"),
+    [
+        ("One of three bowls holds a lime and the other two bowls hold an egg.",
+         [{"lime": 1}, {"egg": 1}, {"egg": 1}], 3),
+        ("The second of three trays has a cup on it; the other trays have a spoon on them.",
+         [{"spoon": 1}, {"cup": 1}, {"spoon": 1}], 3),
+        ("In a jar there are two keys, and in another, three coins.", [{"key": 2}, {"coin": 3}], 2),
+        ("In a jar is a key, in a second jar a coin.", [{"key": 1}, {"coin": 1}], 2),
+        ("On the left plate is a bun and on the right one a lime.", [{"bun": 1}, {"lime": 1}], 2),
+        ("There are four mugs on a shelf. Every mug but one holds a pen.", [{"pen": 1}] * 3, 4),
+        ("There are three mugs on a shelf. Two of the three mugs hold a pen.", [{"pen": 1}] * 2, 3),
+    ],
+)  # fmt: skip
+def test_the_rest_are_those_that_were_counted(planner, prompt, held, number):
+    plan = planner.plan(prompt)
+    vessels = ("bowl", "tray", "jar", "plate", "mug")
+    owners = [obj.name for obj in plan.objects if obj.name.rstrip(" 0123456789") in vessels]
+    carried = carries(plan)
+    assert len(owners) == number
+    assert [carried[owner] for owner in owners if owner in carried] == [Counter(had) for had in held]
+    assert flagged(plan) == []
+
+
+def test_what_another_is_told_by_is_its_own(planner):
+    plan = planner.plan("In a bowl is an egg, and in another, which is smaller, a lime.")
+    assert {str(rel) for rel in plan.relations} == {"egg in bowl", "lime in smaller bowl"}
+    assert flagged(plan) == []
+
+
+def test_further_ones_where_none_was_told_from_the_rest_are_noted(planner):
+    plan = planner.plan("Three baskets stand on the floor. The other two baskets hold limes.")
+    assert '"The other two baskets" are read as further ones, 5 in all.' in plan.notes
+
+
+@pytest.mark.parametrize("prompt", ["Every mug but one holds a pen.", "Each box but the last is open.",
+                                    "Every bowl but the white one holds a lime."])  # fmt: skip
+def test_all_but_one_of_an_unknown_number_is_refused(planner, prompt):
+    with pytest.raises(PromptError, match="of how many is not said"):
+        planner.plan(prompt)

@@ -61,3 +61,26 @@ def test_what_is_moved_one_by_one_is_where_it_comes_from(prompt: str):
     plan = PLANNER.plan(prompt)
     assert {str(relation) for relation in plan.relations} == {f"pen {at} in mug" for at in (1, 2, 3)}
     assert any("place:pen 1:basket, place:pen 2:basket" in note for note in plan.notes)
+
+
+def test_what_is_sorted_is_put_where_the_sentence_says():
+    plan = PLANNER.plan("Sort the mugs by colour: red ones into the left basket, blue ones into the right basket.")
+    assert {str(relation) for relation in plan.relations} == {"basket 2 right_of basket 1"}
+    assert any("place:red mug 1:basket 1" in note and "place:blue mug 3:basket 2" in note for note in plan.notes)
+
+
+def test_the_one_of_what_is_sorted_is_one_of_what_it_is_sorted_into():
+    plan = PLANNER.plan("Sort the fruit into the bowls: plums in the left one, limes in the right one.")
+    assert {obj.noun for obj in plan.objects} == {"plum", "lime", "bowl"}
+    assert any("place:plum 1:bowl 1" in note and "place:lime 1:bowl 2" in note for note in plan.notes)
+
+
+def test_what_is_taken_before_a_deed_that_is_no_task_is_the_task():
+    plan = PLANNER.plan("Grasp the plum, then wash it.")
+    assert (plan.task, plan.notes) == ("pick:plum", ('not modelled: "wash it": no task does that.',))
+
+
+def test_a_side_behind_the_goal_is_said_to_be_read_of_the_goal():
+    plan = PLANNER.plan("Pick up the plum and put it on the tray to the right of the basket.")
+    assert plan.task == "place:plum:tray"
+    assert '"to the right of the basket" is read as said of "the tray", not of where on it.' in plan.notes

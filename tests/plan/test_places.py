@@ -38,6 +38,11 @@ PLANNER = GrammarPlanner()
         ("A bowl decorated with roses stands on a shelf.", {"bowl on shelf"}),
         ("A shelf decorated with two candles.", {"candle 1 on shelf", "candle 2 on shelf"}),
         ("Shove the crate across the table.", {"crate on table"}),
+        ("Take a rod and push a crate with the rod.", set()),
+        ("Slice the cheese with the knife.", set()),
+        ("Push the crate with two balls in it.", {"ball 1 in crate", "ball 2 in crate"}),
+        ("A monitor with a picture of a boat on the screen stands on a desk.", {"monitor on desk"}),
+        ("A jar with a label on its lid.", set()),
     ],
 )  # fmt: skip
 def test_what_is_where(prompt: str, relations: set[str]):
@@ -60,10 +65,10 @@ def test_what_is_in_another_corner_is_in_a_corner_of_the_same(prompt: str, carri
 
 
 def test_of_a_list_whose_last_has_a_place_of_its_own_both_readings_are_told():
-    plan = PLANNER.plan("The desk holds a cup, a plate and a spoon in a box.")
-    assert "spoon in box" in {str(relation) for relation in plan.relations}
+    plan = PLANNER.plan("The desk holds a lime, a pear and a fig in a box.")
+    assert "fig in box" in {str(relation) for relation in plan.relations}
     assert plan.otherwise is not None
-    assert "A cup, a plate and a spoon are in the box" in plan.otherwise
+    assert "A lime, a pear and a fig are in the box" in plan.otherwise
 
 
 @pytest.mark.parametrize(
@@ -102,6 +107,8 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
         ("Take one lemon from each of the two baskets.",
          'not modelled: "Take one lemon from each of the two baskets": no task does that.'),
         ("The drawer holds two socks.", 'not arranged: "sock 1" inside "drawer"; it is placed on it'),
+        ("Lift the egg with the tongs.", 'not modelled: "with the tongs"'),
+        ("A monitor with a picture of a boat on the screen.", 'not modelled: "a picture of a boat on the screen"'),
         ("A jug engraved with a rose.", 'not modelled: "engraved with a rose"'),
         ("Three cans on a shelf, one of them lying down.",
          'not arranged: "lying down"; "Three cans" is placed the way the catalogue makes it'),

@@ -107,3 +107,20 @@ def test_every_place_is_that_of_the_subject(prompt: str, relations: set[str]):
     plan = PLANNER.plan(prompt)
     assert {str(relation) for relation in plan.relations} == relations
     assert plan.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "carried"),
+    [
+        ("A shelf with five mugs, two of them on the floor.", 3),
+        ("A basket with four lemons, one of them on the ground.", 3),
+        ("A lamp on a desk on the floor.", 1),
+    ],
+)
+def test_some_of_what_something_has_stands_on_the_floor(prompt: str, carried: int):
+    assert sum(relation.supports for relation in PLANNER.plan(prompt).relations) == carried
+
+
+def test_in_front_of_what_carries_the_rest_is_said_to_be_read_so():
+    notes = PLANNER.plan("A crate with six lemons, two of them in front.").notes
+    assert '"in front" is read as said of "A crate".' in notes

@@ -39,6 +39,9 @@ def _tasks(plan: ScenePlan) -> list[str]:
         ("Put the three mugs on the three plates.",
          ["place:mug 1:plate 1", "place:mug 2:plate 2", "place:mug 3:plate 3"]),
         ("Take the jar to the desk.", ["place:jar:desk"]),
+        ("A jar and a mug are on the desk. Put everything in the box.", ["place:jar:box", "place:mug:box"]),
+        ("A jar is on the desk. A mug is on the shelf. Move everything from the desk to the box.", ["place:jar:box"]),
+        ("Put the mug on the lower rack of the dishwasher.", ["place:mug:dishwasher"]),
         ("Get the jar from the shelf and take it to the desk.", ["place:jar:desk"]),
         ("Take the jar from the shelf.", ["pick:jar"]),
     ],
@@ -78,6 +81,12 @@ def test_everything_that_is_to_be_moved_has_its_task(prompt: str, tasks: list[st
          {"clock left_of bed", "chair right_of bed"}),
         ("The left jar is red, the middle jar is white and the right jar is blue.",
          {"white jar right_of red jar", "blue jar right_of red jar", "blue jar right_of white jar"}),
+        ("A crate on which a clock stands is on the bench.", {"clock on crate", "crate on bench"}),
+        ("Two stools facing each other with a crate in between.", {"stool 1 left_of crate", "stool 2 right_of crate"}),
+        ("A bench with four stools, two on each side.",
+         {"stool 1 left_of bench", "stool 2 right_of bench", "stool 3 left_of bench", "stool 4 right_of bench"}),
+        ("A blue jar stands to the left of a red jar, and a ball lies between them.",
+         {"blue jar left_of red jar", "blue jar left_of ball", "red jar right_of ball"}),
         ("A burger with fries on a plate.", {"burger on plate", "fries on plate"}),
     ],
 )  # fmt: skip
@@ -117,6 +126,14 @@ def test_a_posture_of_all_is_of_every_one(prompt: str):
 def test_they_who_can_only_be_one_are_named_in_a_note():
     plan = PLANNER.plan("A tray stands on the desk. They are red.")
     assert any(note.startswith('"they" (word 7) is read as') for note in plan.notes)
+
+
+@pytest.mark.parametrize("prompt", ["Cover the jar with a plate.", "Swap the jar with the mug.",
+                                    "Move everything from the desk to the box."])  # fmt: skip
+def test_what_is_only_done_later_or_with_something_is_not_there_before(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert not plan.relations
+    assert plan.notes
 
 
 def test_a_figure_holds_nothing_and_a_note_says_so():

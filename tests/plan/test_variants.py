@@ -44,6 +44,21 @@ def planner() -> GrammarPlanner:
         ),
         ("A stack of four cubes in the colors of the rainbow.", "A stack of four rainbow cubes."),
         ("Three trays carried three mugs.", "Three trays carry three mugs."),
+        ("Row 1: red mug, blue mug.", "A red mug and a blue mug are in a row."),
+        (
+            "The front row has two jars and the back row three mugs.",
+            "A row of two jars is in front of a row of three mugs.",
+        ),
+        (
+            "Open the pot by lifting the lid and placing it on the tray.",
+            "Open the pot, lift the lid and place it on the tray.",
+        ),
+        ("Four trees surround a bench.", "Four trees around a bench."),
+        (
+            "A desk with various items that include a pen and a mug.",
+            "A desk with various items including a pen and a mug.",
+        ),
+        ("Wherever there is a tray there is a mug on it.", "Every tray has a mug on it."),
         ("Salt and pepper next to a plate.", "A salt shaker and a pepper shaker next to a plate."),
         ("Open the cabinet and pick up the bowl in there.", "Open the cabinet and pick up the bowl in it."),
     ],
@@ -67,6 +82,12 @@ def test_both_give_one_scene(planner: GrammarPlanner, sentence: str, same: str):
         ("Four mugs stand in a curved line on a desk.", "curved"),
         ("Three wine glasses hang upside down from a wine rack.", "upside down"),
         ("Close the crate's lid.", "lid"),
+        ("A toy dog guards a basket.", '"guards" is read as "next to"'),
+        ("The cat licks the bowl.", '"licks" is read as "next to"'),
+        ("Put the bowls on the tray for laying out a salad bar.", "for laying out a salad bar"),
+        ("A tablet lies on a desk. The screen shows a spreadsheet.", "The screen shows a spreadsheet"),
+        ("One boot is under the chair, the other nowhere to be seen.", "the other nowhere to be seen"),
+        ("A crate, upside-down, serving as a stool.", "serving as a stool"),
         ("A ladder taller than the shelf next to it.", "taller than"),
         ("A notebook with a name printed on it.", "with a name printed on it"),
         ("Two red bricks stand parallel to each other with a gap between them.", "with a gap between them"),
@@ -100,6 +121,7 @@ def test_what_has_to_be_before_is_there_and_noted(planner: GrammarPlanner, sente
     ("sentence", "words"),
     [
         ("A sewing contraption stands on a desk.", '"sewing contraption"'),
+        ("A chainsaw rests heavily on a table.", '"chainsaw"'),
         ("A mug stands on a stand.", '"stand" is not in the catalogue'),
         ("A tower of four mugs, the second yellow.", '"yellow" .* is a colour'),
         ("Move the door to the left.", '"door"'),
@@ -108,3 +130,7 @@ def test_what_has_to_be_before_is_there_and_noted(planner: GrammarPlanner, sente
 def test_a_refusal_names_the_words_at_fault(planner: GrammarPlanner, sentence: str, words: str):
     with pytest.raises(PromptError, match=words):
         planner.plan(sentence)
+
+
+def test_what_is_written_at_the_end_of_a_sentence_is_set_aside(planner: GrammarPlanner):
+    assert [obj.noun for obj in planner.plan('A mug reading "12/2020"').objects] == ["mug"]

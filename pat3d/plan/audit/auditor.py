@@ -8,10 +8,13 @@ from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
+from pat3d.plan.audit.asked import requests
+from pat3d.plan.audit.chained import chained
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
+from pat3d.plan.audit.members import shares
 from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
 from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
@@ -20,6 +23,7 @@ from pat3d.plan.audit.places import (
     for_each,
     grounded,
     insides,
+    middle_ones,
     middles,
     on_the_other,
     opposite,
@@ -174,11 +178,13 @@ class _Auditor(Compared):
             *grounded(self),
             *behind_all(self),
             *middles(self),
+            *middle_ones(self),
             *others(self),
             *parts(self),
             *the_one(self),
             *without(self),
         ]
+        made += [*requests(self), *shares(self), *chained(self)]
         made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)
@@ -222,7 +228,11 @@ class _Auditor(Compared):
         if lead[1:] == ["of"]:
             # "Half of the eight blocks are red", "two of them"
             return NUMBERS.get(lead[0], 1), own or self.plan.objects
-        return (len(own) if words[-1] in ("are", "were") and "and" not in words else 1), own or self.plan.objects
+        if words[-1] not in ("are", "were") or "and" in words:
+            return 1, own or self.plan.objects
+        # "Two cups are red. The other cups are blue."
+        told = subject[0].number or int("other" in subject[0].lead) or len(own)
+        return min(len(own), told), own or self.plan.objects
 
     # Objects
 
@@ -242,6 +252,7 @@ class _Auditor(Compared):
             ):
                 continue
             least = sum(mention.number or 1 for mention in mentions if mention.new)
+            least = max(least, *(mention.number or 1 for mention in mentions))
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
             known = [

@@ -198,6 +198,8 @@ def _unpacked(it: Compared) -> Iterator[tuple[int, str]]:
 def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
     """A request that is neither a task nor said to be none."""
     start = [word for word in it.said.words if word not in ("please", "could", "can", "you", "now", "just")][:3]
+    if not start:
+        return
     asked = it.tasks.strip() or it.undone or "is read as the scene" in it.quoted
     scene = start[0] == "give" and {*start[1:]} & {"a", "an", "scene"}
     if start[0] in REQUESTS and not asked and not scene and "task" not in it.quoted:

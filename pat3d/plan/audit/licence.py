@@ -156,7 +156,9 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         if subjects and claim.of is not None and claim.place not in ("with", "holding"):
             above = _names(it, subjects)
         if fronted(it, claim):
-            above = _names(it, [mention for mention in it.said.mentions if mention.start >= claim.end])
+            # "On the chest next to the bed is a lamp": the chest may be next to the bed as well.
+            near = (each for each in it.said.mentions if each.start >= claim.end or each.end == claim.at)
+            above = above | _names(it, list(near))
         if claim.place in ("with", "holding", "under") and child in below and parent in above:
             return True
         if parent in below and child in _names(it, _added(it, claim)):

@@ -123,6 +123,9 @@ def _shares_of_sides(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         count, owner = NUMBERS.get(words[at - 2], 0), words[at + 2 : at + 3] == ["of"]
         of = next((mention for mention in it.said.mentions if mention.start > at), None) if owner else None
+        if of is None and not owner:
+            # "A table with four chairs, two on each side"
+            of = next((each for each in it.said.mentions if each.noun in it.furniture and each.end <= at), None)
         several = [mention for mention in it.said.mentions if mention.end <= at and mention.plural]
         if count < 2 or of is None or not several:
             continue

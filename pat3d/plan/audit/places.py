@@ -166,10 +166,15 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         before = [mention for mention in it.said.mentions if mention.end <= at]
         ones = [mention for mention in before if "one" in it.said.words[mention.first : mention.start]]
         named = ones[-1:] if word in ("other", "others") and ones else before
-        kinds = [{obj.noun for obj in it.which(mention)} for mention in named]
-        likes = [[obj for obj in it.plan.objects if obj.noun in nouns] for nouns in kinds]
+        kinds = [{_called(obj) for obj in it.which(mention)} for mention in named]
+        likes = [[obj for obj in it.plan.objects if _called(obj) in names] for names in kinds]
         if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
             yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
+
+
+def _called(obj: PlannedObject) -> str:
+    """What `obj` is called by: a bowl with fruit is made as a fruit bowl, and is a bowl."""
+    return obj.name.rstrip(" 0123456789").split()[-1]
 
 
 def on_the_other(it: Compared) -> Iterator[tuple[int, str]]:
@@ -256,6 +261,21 @@ def middles(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'not as said: "in the {words[at]}" of "{start.text}"'
 
 
+def middle_ones(it: Compared) -> Iterator[tuple[int, str]]:
+    """The middle one of three that are told by their sides, which stands between the others."""
+    sides = {side: [one for one in it.said.mentions if side in one.lead] for side in ("left", "middle", "right")}
+    if not all(sides.values()) or len({one.noun for each in sides.values() for one in each}) > 1:
+        return
+    for mention in sides["middle"]:
+        own = {obj.name for obj in it.of(mention)}
+        rows = any(one.kind in ("row", "between") and own & {*one.objects} for one in it.plan.arrangements)
+        between = [
+            obj for obj in it.of(mention) if {k for a, k, _ in it.edges if a == obj.name} >= {"left_of", "right_of"}
+        ]
+        if own and not rows and not between and "middle" not in it.quoted:
+            yield mention.start, f'not arranged: "the middle {mention.text}" between the others'
+
+
 def behind_all(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in the background and is carried by something."""
     words = it.said.words
@@ -321,6 +341,9 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         if word not in EACH:
             continue
         place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
+        if {"but", "except", "save"} & set(it.said.words[at + 1 : at + 4]):
+            # "Every cup but one": of one less.
+            continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
         behind = [mention for mention in it.said.mentions if mention.start > at]
         if place in ENDS or place in CORNERS:

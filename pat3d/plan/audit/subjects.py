@@ -23,6 +23,8 @@ _JOINTS = ARTICLES | {
     "its", "their", "side", "back",
 }  # fmt: skip
 """Words that join names to a list of equals: "a glass of water, a bottle on its side and some pears"."""
+_CLAUSE = 6
+"""Words of a relative clause before the name that it ends with."""
 
 
 def misattached(it: Compared, claim: Claim, nowhere: str) -> str | None:
@@ -81,6 +83,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
     if near is None:
         return _behind(it, claim) if at == claim.at else ([], False)
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)
+    if finite and "which" in words[max(near.first - _CLAUSE, 0) : near.first]:
+        # "A box in which there is a ball is under the desk": of the box.
+        return [], False
     if leading is None:
         return listed(it, near), finite
     if not finite and (leading.at == 0 or words[leading.at - 1] in (".", ";", "!", "?")):
@@ -135,6 +140,18 @@ def _behind(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
             break
         made.append(mention)
     return made, len(made) == 1
+
+
+def row_of(it: Compared, last: Mention, further: frozenset[str] = frozenset()) -> list[Mention]:
+    """`last` and every name before it that commas, "and" and words of `further` join to it, whatever leads to them."""
+    made = [last]
+    for mention in reversed([each for each in it.said.mentions if each.end <= last.first]):
+        between = it.said.words[mention.end : made[0].first]
+        between = between[2:] if between[:1] == ["of"] else between
+        if not between or not set(between) <= _JOINTS | further:
+            break
+        made.insert(0, mention)
+    return made
 
 
 def listed(it: Compared, last: Mention) -> list[Mention]:

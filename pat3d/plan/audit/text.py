@@ -47,6 +47,9 @@ _RAINBOW = r"\bin (?:all )?(?:the )?(?:rainbow colou?rs|colou?rs of the rainbow)
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
 _HEADS = PRONOUNS | {"another", "other"}
+_ONE = frozenset({"one", "another"})
+_KNOWN = frozenset({"the", "these", "those", "both", "all", "other"})
+"""Words before what was named already: "the other two cups"."""
 _FAR = 7
 """Words from a relation word to its landmark."""
 
@@ -234,7 +237,7 @@ def _mention(
     return Mention(
         start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun,
         plural=plural, number=number,
-        new=number is not None and not {"the", "these", "those", "both", "all", "other"} & lead,
+        new=number is not None and not _KNOWN & {*lead, words[max(min(ahead, default=start) - 1, 0)]},
         lead=frozenset(lead - ARTICLES), owned=bool({"its", "their"} & lead) and "own" not in lead, colours=colours,
         part=part,
     )  # fmt: skip
@@ -283,7 +286,10 @@ def _size(words: Sequence[str], at: int) -> int:
         if words[at] == "opposite" and words[at - 1] in ARTICLES:
             continue
         upon = words[at : at + size] == ["on", "the", "other"] and words[at - 1] == "one" and "side" not in words[:at]
-        if place is not None and not (place == "side" and (leads_on or upon)):
+        behind = words[at + size + 1] if at + size + 1 < len(words) else "."
+        # "On the right one a glass", but not "on the right one glass".
+        member = after in ("one", "ones") and (not behind[0].isalnum() or behind in ARTICLES | OPENING)
+        if place is not None and not (place == "side" and (leads_on or upon or member)):
             return size
     return 0
 
@@ -311,10 +317,11 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
         if place == "side":
             at += size
             continue
-        end, of = at + size, None
+        end, of, alone = at + size, None, 0
         while end < len(words) and end not in starts and end - at - size < _FAR and not _ends(words, end, at + size):
-            if end > at + size and words[end - 1] in HEADLESS | {"one", "another"} and words[end] in NUMBERS:
-                # "on the other a muffin", "on one a bun"
+            if end > at + size and words[end - 1] in HEADLESS | _ONE and words[end] in NUMBERS:
+                # "on the other a muffin", "on one a bun", "in the blue one two cubes"
+                alone = end
                 break
             end += 1
         if end in starts:
@@ -340,6 +347,7 @@ def _claims(said: Said, parts: Sequence[int]) -> list[Claim]:
             headless = after == "the" and place != "between" and set(words[end + 1 : end + 2]) & HEADLESS
             if headless and (not behind[:1].isalpha() or behind in ENDING | NUMBERS.keys()):
                 end += 2
+            end = max(end + (after == "another"), alone)
         if of is not None or end > at + size or place in ("its left", "its right"):
             text = " ".join(words[at:end])
             whose, whole = _whose(said, at)

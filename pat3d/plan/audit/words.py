@@ -217,6 +217,7 @@ _BUILDING = """
 a an the that this these those its their it them they his her my your our some any all both each every either other
 another own same which who one ones and or but then while so as also too plus here there where is are was were be been
 being has have had do does of to at by in on with for from into onto up down out off over next side sides row rows line
+consists consisting surround surrounds encircle encircles include includes
 stack pile top middle center centre edge corner end left right front back first second third last nothing showing
 complete featuring including objects items things everything others exactly about well together somewhere what shown
 seen should must need i'd give following features color immediate amidst belongs belong leave keep needs need goes go
@@ -227,7 +228,7 @@ upper topmost leftmost rightmost lower pieces piece very quite just really only 
 like several animals want see imagine show create make build corners he she they namely whereas itself themselves
 himself herself now still
 already image possible sure ensure find finds generate remaining
-yesterday today currently simply form forms forming appears appear x count slightly
+yesterday today currently simply form forms forming appears appear x count slightly except
 """
 _POSTURES = """
 hidden else cover
@@ -242,7 +243,7 @@ _DEEDS = """
 moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean
 bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
-robot robotic gripper away back close pass hand relocate reposition shift drag
+robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

@@ -13,6 +13,11 @@ from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
+_OF_SEVERAL = {
+    "has": "have", "holds": "hold", "contains": "contain", "carries": "carry", "is": "are", "was": "were",
+    "stands": "stand", "lies": "lie", "sits": "sit",
+}  # fmt: skip
+"""Verbs of one thing, and of several."""
 _ABOUT = frozenset({"about", "approximately", "roughly", "around", "exactly"})
 
 
@@ -31,7 +36,7 @@ def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
-    return _without_shares(_in_each(_one_and_others(_on_both(_high(_all_but(_fractions(tokens))))), nouns))
+    return _without_shares(_in_each(_one_and_others(_on_both(_high(_all_but(_every_but(_fractions(tokens)))))), nouns))
 
 
 def _is_number(word: str) -> bool:
@@ -116,6 +121,29 @@ def _all_but(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+def _every_but(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "every cup but one holds a pen" as "three of the four cups hold a pen", where four were named."""
+    words = [token.text for token in tokens]
+    for at, token in enumerate(tokens[:-4]):
+        but = at + 2 + (words[at + 2] not in _BUT)
+        end = but + (3 if words[but + 1 : but + 3] == ["the", "last"] else 2)
+        if token.text not in ("every", "each") or words[but] not in _BUT or words[end - 1] not in ("one", "last"):
+            continue
+        noun = words[but - 1]
+        named = next((n for n in range(at - 1, 0, -1) if noun in singulars(words[n])), 0)
+        total = _counted_before(tokens, named, words[named]) if named else 0
+        end += words[end] == "one"
+        if total < 2 or words[end] not in FINITE:
+            continue
+        told = [str(total - 1) if total > 2 else "one", "of", "the", str(total)]
+        whole = [*(replace(token, text=text) for text in told), replace(tokens[but - 1], text=words[named])]
+        stop = next(n for n in range(end, len(words)) if tokens[n].mark)
+        several = {**_OF_SEVERAL, "it": "them", "its": "their"} if total > 2 else {}
+        rest = [replace(each, text=several.get(each.text, each.text)) for each in tokens[end:stop]]
+        return [*tokens[:at], *whole, *rest, *tokens[stop:]]
+    return list(tokens)
+
+
 def _one_and_others(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "one cup is red, the other two are blue" as "one of the three cups is red, ..."."""
     words = [token.text for token in tokens]
@@ -169,7 +197,7 @@ def _some_of(tokens: Sequence[Token]) -> list[Token]:
     if not opens or words[end] not in FINITE:
         return list(tokens)
     colon, them = replace(tokens[0], text=":", mark=True), replace(tokens[2], text="them")
-    return [*tokens[3:end], colon, *tokens[:2], them, *tokens[end:]]
+    return [*tokens[2:end], colon, *tokens[:2], them, *tokens[end:]]
 
 
 def _of_whole(tokens: Sequence[Token]) -> list[Token]:

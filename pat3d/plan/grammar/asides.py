@@ -8,8 +8,13 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.relation_words import RelationWords
 from pat3d.plan.grammar.shapes import refuse, shape_said
+from pat3d.plan.grammar.unmade import base_verb
 
 ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
+
+
+_FACES = frozenset({"screen", "display", "lid", "cover", "cap"})
+"""Parts that show something, and are things of their own elsewhere."""
 
 
 class Asides(RelationWords):
@@ -24,6 +29,11 @@ class Asides(RelationWords):
             self._at += 1
             return True
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            return self._leave(read[1] - self._at)
+        done = self._word(-1)
+        agent = word == "by" and base_verb(done) is not None and self._word(-2) in ("be", "being")
+        if agent and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
+            # "Washed by the dishwasher" places nothing beside it.
             return self._leave(read[1] - self._at)
         after_noun = self._last is not None and self._last.kind == "noun"
         if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
@@ -73,11 +83,20 @@ class Asides(RelationWords):
         """Name "a picture of a cat on it", which is no object."""
         shown = self._phrases.read(of + 1)
         end = shown[1] if shown is not None else of + 1
-        size = link_at(self._tokens, end)
-        if size and self._tokens[end + size].text in lexicon.PRONOUNS:
-            end += size + 1
+        end += self._on_a_part(end)
         self._made.chunks.pop()
         self._leave(end - self._at)
+
+    def _on_a_part(self, at: int) -> int:
+        """Tokens from token `at` on that say where on a thing something is: "on it", "on the screen", "on its lid"."""
+        size = link_at(self._tokens, at)
+        if not size or self._tokens[at].text not in ("on", "at", "in", "across"):
+            return 0
+        if self._tokens[at + size].text in lexicon.PRONOUNS:
+            return size + 1
+        read = self._phrases.read(at + size)
+        part = read is not None and (read[0].kind == "part" or read[0].head in lexicon.DETACHED | _FACES)
+        return read[1] - at if read is not None and part and not read[0].part else 0
 
     def _remark(self) -> None:
         """Set aside the rest of the sentence, which tells of light or mood."""

@@ -82,7 +82,8 @@ class Boundaries:
             return headless and (placed or ((word,) in LINKS and self._begins(at + 1)))
         if is_marked(word) and (self._ends_in_noun(words) or self._tokens[at + 1].mark or not self.goes_on(at + 1)):
             return True
-        if word in lexicon.VERBS and link_at(self._tokens, at + 1):
+        adverb = self._tokens[at + 1].text.endswith("ly")
+        if word in lexicon.VERBS and link_at(self._tokens, at + 1 + adverb):
             return not (self._extends(words, word) and self._names_a_stand(words, at))
         if not self._ends_in_noun(words):
             return self._breaks_unknown(words, at)

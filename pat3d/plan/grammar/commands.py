@@ -63,6 +63,8 @@ def _in_full(tokens: Sequence[Token]) -> Sequence[Token]:
     finite = any(word in lexicon.COPULAS and words[at - 1] not in ("that", "which") for at, word in enumerate(words))
     if base in _DOING and words[1] in leads and not finite and "," not in words:
         return [replace(tokens[0], text=base), *tokens[1:]]
+    tokens = _by_doing(tokens)
+    words = [token.text for token in tokens]
     made: list[Token] = []
     for at, token in enumerate(tokens):
         follower = words[min(at + 1, len(words) - 1)]
@@ -73,6 +75,22 @@ def _in_full(tokens: Sequence[Token]) -> Sequence[Token]:
         if token.text == "reach" and follower == "for" and (not at or words[at - 1] in ("and", "then", ",")):
             made[-1] = replace(token, text="grasp", end=tokens[at + 1].end)
     return [token for at, token in enumerate(made) if not (token.text == "for" and at and made[at - 1].text == "grasp")]
+
+
+def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "open the pot by lifting the lid and turning it" as "open the pot, lift the lid and turn it"."""
+    words = [token.text for token in tokens]
+    by = words.index("by") if "by" in words else 0
+    verb = by + 1 + (words[by + 1].endswith("ly"))
+    gerund = by > 2 and words[verb].endswith("ing") and base_verb(words[verb])
+    asked = base_verb(words[0]) == words[0] and words[1] in lexicon.DETERMINERS and words[0] not in ("build", "make")
+    if not gerund or not asked or link_at(tokens, verb):
+        return tokens
+    made = [*tokens[:by], replace(tokens[by], text=",", mark=True)]
+    for at in range(verb, len(tokens)):
+        base = base_verb(words[at]) if at == verb or words[at - 1] in ("and", ",", "then") else None
+        made.append(replace(tokens[at], text=base) if base and words[at].endswith("ing") else tokens[at])
+    return made
 
 
 def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -214,7 +232,8 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if token.text == "leave" and follower in ("everything", "anything") and "else" in told:
             made.append(replace(token, text="avoid"))
             continue
-        if token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the":
+        stowed = token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the"
+        if stowed and tokens[at + 2].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"to"}:
             continue
         sorted_by = "sort" in told and ("into" in [each.text for each in made] or ":" in told)
         if sorted_by and (

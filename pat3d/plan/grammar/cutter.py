@@ -167,7 +167,11 @@ class Cutter(Asides):
             phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
+        shown = phrase.kind == "part" and self._last is not None and self._last.kind == "have"
         self._add("noun", after - self._at, phrase=phrase)
+        if shown and (size := self._on_a_part(self._at)):
+            # "a box with a label on its lid"
+            self._leave(size)
         while phrase.substance and self._word(0) in ("and", ",") and self._word(1) in lexicon.SUBSTANCES:
             # "a bowl of cereal and milk"
             self._made.unread.append(self._word(1))

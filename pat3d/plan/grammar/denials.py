@@ -25,7 +25,7 @@ _NO = frozenset({"neither", "none"})
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of):
+    for told in (_condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of, _missing):
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
@@ -146,12 +146,13 @@ def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
 
 def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "neither of the two boxes is empty" as "there are two boxes", and "neither chair has a cushion" the same."""
-    if words[0] not in _NO:
+    if words[0] not in _NO or len(words) < 4:
         return None
     start = 2 if words[1] == "of" else 1
     stops = (n for n in range(start + 1, len(words)) if tokens[n].mark or words[n] in FINITE or words[n] == "has")
     verb = next(stops)
-    end = next(n for n in range(verb, len(words)) if tokens[n].mark and (words[n] != "," or words[n + 1] == "but"))
+    but = [n for n in range(verb, len(words) - 1) if words[n] == "," and words[n + 1] == "but"]
+    end = next(n for n in range(verb, len(words)) if n in but or (tokens[n].mark and words[n] != ","))
     named = words[start + (words[start] == "the") : verb]
     if not named or not nouns.match(named[-1:]) or "nor" in named or words[start] in ("but", "them", "these", "those"):
         return None
@@ -159,3 +160,16 @@ def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="are"), *number]
     subject = tokens[start + (words[start] == "the" and bool(set(named) & lexicon.NUMBERS.keys())) : verb]
     return [*there, *subject, *tokens[end:]], [(tokens[0], tokens[end - 1])]
+
+
+def _missing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "one shoe is under the bed, the other nowhere to be found" without the other."""
+    if "nowhere" not in words[3:]:
+        return None
+    at = words.index("nowhere", 3)
+    start = next((n for n in range(at, 0, -1) if words[n] in (",", "and", "but")), 0)
+    end = next(n for n in range(at, len(words)) if tokens[n].mark)
+    inside = words[start + 1 : at]
+    if not start or nouns.match(inside[-1:]) or words[at + 1 : at + 3] != ["to", "be"]:
+        return None
+    return [*tokens[:start], *tokens[end:]], [(tokens[start + 1], tokens[end - 1])]

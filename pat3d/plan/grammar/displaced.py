@@ -65,6 +65,26 @@ def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
+def which_carries(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a book on which a cup stands lies ..." as "a book with a cup on it lies ..."."""
+    for at in range(1, len(tokens) - 5):
+        size = link_at(tokens, at)
+        start = at + size + 1
+        if not size or tokens[start - 1].text != "which" or not nouns.match([tokens[at - 1].text]):
+            continue
+        there = tokens[start].text == "there" and tokens[start + 1].text in lexicon.COPULAS
+        first = start + 2 * there
+        named = tokens[first].text in lexicon.DETERMINERS or tokens[first].text in lexicon.NUMBERS
+        verb = next((n for n in range(first + 1, len(tokens)) if tokens[n].mark or tokens[n].text in _FINITE), first)
+        end = verb if there else verb + 1
+        plain = not any(link_at(tokens, n) or tokens[n].text == "and" for n in range(first, verb))
+        if named and plain and not tokens[verb].mark and tokens[min(end, len(tokens) - 1)].text in _FINITE:
+            them = replace(tokens[start - 1], text="them" if singulars(tokens[at - 1].text) else "it")
+            return [*tokens[:at], replace(tokens[at], text="with"), *tokens[first:verb], *tokens[at : start - 1], them,
+                    *tokens[end:]]  # fmt: skip
+    return list(tokens)
+
+
 def _one_upon(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "two cubes, one on the other" as "one on top of the other": no side of anything."""
     words = [token.text for token in tokens]

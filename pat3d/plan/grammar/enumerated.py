@@ -18,9 +18,12 @@ from pat3d.plan.grammar.vocabulary import Nouns
 _BOTTLED = frozenset({"ketchup", "mustard", "mayonnaise", "vinegar"})
 """What is made in its bottle."""
 _LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
-_VARIED = frozenset(
-    {"other", "different", "differently", "various", "several", "matching", "identical", "separate", "exactly"}
-)
+_VARIED = frozenset({"other", "different", "various", "several", "identical", "separate", "exactly"})
+_MANY_COLOURED = frozenset({
+    "different", "differently", "matching", "colored", "coloured", "colorful", "colourful", "rainbow", "multicolored",
+    "rainbow-colored", "rainbow-coloured", "multicoloured",
+})  # fmt: skip
+"""Words that a list of the colours says too."""
 _LONGEST = 24
 """Tokens of a list in brackets."""
 
@@ -51,7 +54,7 @@ def _number(word: str) -> int:
 def _start(words: Sequence[str], end: int) -> int:
     """Where the phrase begins of which the noun ends before token `end`."""
     start = end
-    while start and (words[start - 1] in _LEADING | _VARIED or is_modifier(words[start - 1])):
+    while start and (words[start - 1] in _LEADING | _VARIED | _MANY_COLOURED or is_modifier(words[start - 1])):
         start -= 1
     return start
 
@@ -97,12 +100,14 @@ def _in_brackets(text: str, tokens: list[Token], nouns: Nouns) -> list[Token]:
         first = _start(words, name)
         count = next((_number(word) for word in words[first:name] if _number(word) > 1), said)
         if all(len(item) == 1 and is_colour_word(item[0].text) for item in listed):
-            if count in (0, said) and said in (0, len(listed)):
-                number = replace(tokens[name], text=str(len(listed)))
+            if count in (0, len(listed)):
+                told = any(_number(word) == count for word in words[first:name]) if count else False
+                number = [] if told else [replace(tokens[name], text=str(len(listed)))]
                 comma = replace(tokens[at], text=",", mark=True)
                 colours = [one for item in listed for one in (item[0], comma)][:-1]
                 lead = _described(words, name)
-                made = [*tokens[:lead], number, *tokens[lead:name], *colours, *tokens[name:end], *tokens[close + 1 :]]
+                kept = [token for token in tokens[lead:name] if token.text not in _MANY_COLOURED]
+                made = [*tokens[:lead], *number, *kept, *colours, *tokens[name:end], *tokens[close + 1 :]]
                 return _in_brackets(text, made, nouns)
         elif all(len(item) == 2 and _number(item[0].text) and is_colour_word(item[1].text) for item in listed):
             if not count:

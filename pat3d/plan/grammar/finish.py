@@ -53,6 +53,9 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     there = set(world.items())
     world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
     world.laterals = [edge for edge in world.laterals if {edge.child, edge.parent} <= there]
+    for item in world.grounded & world.supports.keys():
+        if world.supports[item].parent not in item.group.items:
+            del world.supports[item]
     covers.settle(world)
     _open_boxes(world, nouns)
     _widen_bowls(world, nouns)
@@ -174,7 +177,7 @@ def _share_supports(world: World) -> None:
                 taken = (one, surface, *world.ancestors(one))
                 # "A table surrounded by chairs on a rug" is on the rug too.
                 rug = around and surface is not None and world.is_a(surface, ("rug", "carpet"))
-                if surface is None or (world.on_floor(lowest) and not rug) or lowest in taken:
+                if surface is None or (world.on_floor(lowest) and not rug) or lowest in {*taken, *world.grounded}:
                     continue
                 if world.is_a(surface, lexicon.LEVEL) or not world.is_a(lowest, lexicon.BY_A_SEAT):
                     world.place([lowest], "on", [surface])

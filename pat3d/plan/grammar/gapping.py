@@ -35,13 +35,48 @@ def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             verb = token
         made.append(token)
         at += 1
-        size = _subject(tokens, at, nouns) if verb is not None and token.text in _JOINTS else 0
+        if token.text not in _JOINTS:
+            continue
+        size = _subject(tokens, at, nouns) if verb is not None else 0
         if size and verb is not None and _gap(tokens, at, size, nouns):
             one = tokens[at + size - 1].text not in ("others", "ones")
-            made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=_OF_ONE.get(verb.text, verb.text)
-                     if one else verb.text)]  # fmt: skip
+            said = _OF_ONE.get(verb.text, verb.text) if one else verb.text
+            made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=said)]
             at += size
+        elif told := _place(tokens, at, nouns):
+            end, after = told
+            there = [replace(tokens[end - 1], text=word) for word in ("there", "is")]
+            made += [*_described(tokens[at:end], tokens[:at], nouns), *there]
+            at = after
     return made
+
+
+def _place(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, int] | None:
+    """Where "in another, which is red," at token `at` ends, and where what is there begins; None for no such place.
+
+    The sentence begins with such a place too: "in a bowl there are figs, and in another, plums".
+    """
+    size = link_at(tokens, at)
+    if size and tokens[at + size - 1].text in ("left", "right") and tokens[at + size].text in _ONES:
+        # "On the right one"
+        size = 1
+    one = _subject(tokens, at + size, nouns) if size and link_at(tokens, 0) else 0
+    if not one or not any(token.text in lexicon.COPULAS for token in tokens[:at]):
+        return None
+    end = at + size + one
+    if tokens[end].text == "," and tokens[end + 1].text in ("which", "that"):
+        end = next((n for n in range(end + 2, len(tokens)) if tokens[n].mark), end)
+    after = end + (tokens[end].text == ",")
+    return (end, after) if end < len(tokens) - 1 and _gap(tokens, after, 0, nouns) else None
+
+
+def _described(place: Sequence[Token], first: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`place` with "in another, which is bigger" as "in a bigger bowl", where the sentence begins "in a bowl"."""
+    words = [token.text for token in place]
+    noun = next((token for token in first if nouns.match([token.text])), None)
+    if noun is None or words[-4:-1] not in ([",", "which", "is"], [",", "that", "is"]) or words[-5] != "another":
+        return list(place)
+    return [*place[:-5], replace(place[-5], text="a"), place[-1], replace(place[-1], text=noun.text)]
 
 
 def _has_object(tokens: Sequence[Token], at: int) -> bool:
@@ -54,7 +89,7 @@ def _subject(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
     """The words of "the other", "the second one", "a blue one", "the right drawer" at token `at`; 0 for none."""
     words = [token.text for token in tokens[at : at + 5]]
     if words[:1] == ["another"]:
-        return 1 + (words[1] in _ONES)
+        return 1 + (words[1] in _ONES or (_named(tokens, at, words[1]) and nouns.match([words[1]]) is not None))
     if words[0] not in ("the", "a", "an") or len(words) < 4:
         return 0
     if words[1] in _TOLD and (words[0] == "the" or words[1] in ORDINALS):

@@ -11,9 +11,6 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 _USUAL = 0.34
 """Cost of having something below which one thinks of it as on or in its owner."""
 
-_AT_HOME = 0.35
-"""Cost of what something has below which that is where people keep it."""
-
 
 class Having(Judging):
     """The rule for what an object has."""
@@ -60,14 +57,14 @@ class Having(Judging):
             if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 cost += self._arcs(self._link(fact[1]), fact[2], owners)
-                lone = len(fact[2]) == 1 or self._link(fact[1]).kind in SUPPORT_KINDS
-                if not lone and self._likely.having(link, self._noun(owners[0]), self._noun(fact[2][0])) < _AT_HOME:
-                    # "A plate with a bun and a cup beside it": the bun is on the plate.
-                    cost += 0.7
                 placed |= set(fact[2])
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
                     cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
+            elif apart and self._is_pronoun(fact[3]) and self._link(fact[1]).kind in LATERAL_KINDS:
+                # "A cup on a box, with a ball next to them"
+                placed |= set(fact[2])
+                cost += 0.2
             facts.append(fact)
         having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}
         own = having & set(modifier.heads)

@@ -21,6 +21,7 @@ from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.plan.grammar.wielded import wielded
 from pat3d.plan.grammar.world import Item, Manner, Step, World
 from pat3d.scene.relations import SUPPORT_KINDS
 
@@ -149,6 +150,12 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         begun = max(start, 0)
         said = text[tokens[begun].start : max(token.end for token in tokens[begun:end])].lstrip(", ")
         said = said.removeprefix("and ").removeprefix("then ")
+        with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns)
+        if after:
+            # "Push the ball with the bat": the bat lies by itself.
+            made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
+            aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
+            body = [*body[:with_it], *body[after:]]
         if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
             # "Take the cup to the table"
             manner = "move"
@@ -345,6 +352,10 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         if not made:
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
+    if not specs:
+        # "Grasp the block, then turn it": of the two, the first is a task.
+        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
+        specs = next((made for made in picks if made), [])
     if len(specs) > 1:
         listed = ", ".join(specs)
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")

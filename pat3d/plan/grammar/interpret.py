@@ -27,6 +27,9 @@ _COUNTING = ("rows", "stacks", "stack", "tower")
 """Forms that may say how many there are, and so are read before all relations."""
 _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift", "roll", "sweep"})
 """Verbs that leave a thing on what it is on."""
+_FINDING = frozenset({"open", "close", "shut", "go", "navigate", "walk", "touch", "reach", "avoid", "check", "inspect",
+    "ignore", "use", "give", "clear", "tidy", "serve", "turn", "rotate", "flip", "tilt"})  # fmt: skip
+"""Verbs after which "with" tells which thing is meant, and not what it is done with."""
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -41,6 +44,8 @@ class Interpreter(Placing):
         """On which side of what they flank things are, by chunk."""
         self._handled: set[int] = set()
         """Phrases for everything that were put somewhere."""
+        self._from: list[Item] = []
+        """What everything that is moved is on before."""
 
     def add(self, reading: Node) -> float:
         """Add `reading`; what its references cost.
@@ -74,7 +79,7 @@ class Interpreter(Placing):
                 self._form(fact[1], fact[2])
         for fact in facts:
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
-            if handler is not None:
+            if handler is not None and not self._means(fact):
                 self._effect(handler, fact[1], fact[2], fact[3])
         owners: Sequence[int] = ()
         moved = any(fact[0] == "goal" for fact in facts)
@@ -94,6 +99,8 @@ class Interpreter(Placing):
                 self._qualified(fact[2], self._chunks[fact[1]].modifiers)
             elif fact[0] == "goal":
                 self._aimed(fact[1], fact[2], fact[3])
+        if self._clause.manner is not None:
+            self._note_goal(facts)
         if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
             self._done(reading.heads)
         told = {at for fact in facts if fact[0] in ("list", "include") for at in fact[3]}
@@ -118,6 +125,17 @@ class Interpreter(Placing):
             self._relating.cost += self._loose()
         self._account(facts)
         return self._relating.cost + self._said.cost
+
+    def _note_goal(self, facts: Sequence[tuple]) -> None:
+        """Say that "on the tray to the left of the bowl" is read as the tray's place, not the goal's."""
+        goals = {head for fact in facts if fact[0] == "goal" and self._chunks[fact[1]].relation.kind == "on"
+                 for head in fact[3]}  # fmt: skip
+        for fact in facts:
+            link = self._chunks[fact[1]].link if fact[0] == "rel" else None
+            aside = link is not None and link.manner == "place" and link.kind in LATERAL_SIDES.values()
+            if aside and set(fact[2]) <= goals and not any(map(self._world.on_floor, self._said.ref_all(fact[3]))):
+                of, place = (" ".join(self._chunks[at].text for at in ats) for ats in (fact[2], (fact[1], *fact[3])))
+                self._world.note(f'"{place}" is read as said of "{of}", not of where on it.')
 
     def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
         """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
@@ -209,6 +227,7 @@ class Interpreter(Placing):
         link = self._chunks[at].relation
         before, parents = self._world.subject, self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
+        children = children or self._everything(child_heads, parents)
         if not parent_heads:
             parents = [item for item in before if item not in children]
             if link.kind == "in" and children and parents:
@@ -321,6 +340,9 @@ class Interpreter(Placing):
         parents = [] if later else self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         parents = parents or self._said.refs_of(parent_heads, link, child_heads)
+        floor = {self._chunks[head].named.head for head in parent_heads} <= {"floor", "ground"}
+        if floor and link.kind == "on" and children and len(children) < len(children[0].group.items):
+            self._world.grounded |= {*children}
         if link.manner == "goal" and self._clause.manner in ("other", "unload"):
             # "Pour the milk into the glass": before that it is not there.
             self._said.not_understood((*child_heads, *parent_heads))
@@ -417,12 +439,44 @@ class Interpreter(Placing):
         told = phrase.one_of or bool(phrase.superlative != NO_MODIFIERS)
         return list(children[0].group.items) if told and len(children) == 1 else children
 
+    def _means(self, fact: tuple) -> bool:
+        """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""
+        doing = self._clause.manner == "other" and self._clause.verb not in _FINDING
+        link = self._chunks[fact[1]].relation if doing and fact[0] == "have" else None
+        things = all(self._chunks[head].named.kind == "object" for head in fact[3]) if link is not None else False
+        return link is not None and link.manner == "with" and link.kind is None and things
+
+    def _is_items(self, heads: Sequence[int]) -> bool:
+        """Whether one of `heads` is "everything" or "the things"."""
+        phrases = (self._chunks[head].phrase for head in heads)
+        return any(phrase is not None and phrase.kind == "items" for phrase in phrases)
+
+    def _everything(self, heads: Sequence[int], goal: list[Item]) -> list[Item]:
+        """What "everything" at `heads` is that is moved to `goal`: all that is there, or is on what is said with it."""
+        world = self._world
+        said = [self._chunks[head].named for head in heads]
+        every = all(phrase.words.lower().startswith(("everything", "all")) for phrase in said)
+        plain = every and all(phrase.modifiers == NO_MODIFIERS for phrase in said)
+        if not plain or not self._is_items(heads) or self._said.ref_all(heads):
+            return []
+        meant = [item for item in world.items() if item not in goal and not world.on_floor(item)]
+        if self._from:
+            meant = [item for item in meant if world.support(item) in self._from]
+        meant = [item for item in meant if world.support(item) not in meant]
+        if meant:
+            self._handled |= set(heads)
+            self._said.known.update(dict.fromkeys(heads, meant))
+        return meant
+
     def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
         """Read "Everything is on a table": all that is not yet carried."""
         world = self._world
-        kinds = {self._chunks[head].phrase.kind for head in heads if self._chunks[head].phrase}  # type: ignore[union-attr]
-        if "items" not in kinds:
+        if not self._is_items(heads):
             return False
+        if self._clause.manner is not None:
+            # "Move everything on the table": what was there before.
+            self._from += parents
+            return any(world.support(item) in parents for item in world.items())
         free = [item for item in world.items() if world.support(item) is None and item not in parents]
         free = [item for item in free if not world.on_floor(item)]
         if free:
@@ -432,7 +486,11 @@ class Interpreter(Placing):
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if phrase is not None and phrase.part in lexicon.DRAWERS | lexicon.DETACHED and phrase.kind == "object":
+        if (
+            phrase is not None
+            and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
+            and phrase.kind == "object"
+        ):
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:

@@ -102,6 +102,8 @@ class Judging:
     def _means(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:
         """Whether the pronoun `heads` may mean `owners`."""
         plural = len(owners) > 1 or any(self._several(owner) for owner in owners)
+        if self._only_background(owners):
+            return False
         return self._is_pronoun(heads) and (plural or self._phrase(heads[0]).head not in ("them", "they"))
 
     def _one_of(self, heads: tuple[int, ...], owners: tuple[int, ...]) -> bool:

@@ -31,7 +31,9 @@ def lettering(text: str, tokens: Sequence[Token]) -> list[Span]:
     """Where `tokens` of the normalised prompt `text` say what is written on a thing, in quotes."""
     made: list[Span] = []
     for found in _QUOTED.finditer(text):
-        inside = [at for at, token in enumerate(tokens) if found.start() < token.start and token.end < found.end() + 1]
+        inside = [
+            at for at, token in enumerate(tokens[:-1]) if found.start() < token.start and token.end < found.end() + 1
+        ]
         if not inside:
             continue
         start = inside[0]

@@ -125,6 +125,7 @@ PARTS = frozenset({"head", "top", "back", "edge", "side", "middle", "center", "c
     "rind", "stalk", "fin", "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot",
     "stitching", "engraving", "bite", "residue", "component", "earpiece",
     "gripper", "effector", "manipulator",
+    "logo", "sticker", "crack", "scratch", "stain", "decal", "emblem", "inscription",
     "yolk", "condensation", "droplet", "underside", "outline", "hue", "highlight", "reflection"})  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal",
@@ -312,6 +313,8 @@ SILENT_PARTS = frozenset({"top", "surface", "base", "body", "finish", "texture",
 """Parts that every object has: to name them says nothing."""
 DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob", "drawers", "doors", "shelf", "button"})
 """Parts with a name that is a thing's too: "the lid of the box" is the box."""
+FITTED = frozenset({"rack", "racks", "tray", "seat", "basket"})
+"""Parts of furniture and appliances that are also things of their own."""
 VIEWERS = frozenset({"you", "me", "us", "viewer", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
     "clockwise", "counterclockwise", "sideways"})  # fmt: skip

@@ -115,6 +115,7 @@ def _table() -> dict[tuple[str, ...], Link]:
     "in the front of",
         "ahead of")  # fmt: skip
     add(Link(kind="behind"), "hidden by", "hidden behind", "behind", "in back of", "in the back of")
+    add(Link(kind="around", finite=True), "surround", "surrounds", "encircle", "encircles")
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
     add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))

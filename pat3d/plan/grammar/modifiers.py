@@ -26,6 +26,10 @@ _ADJECTIVES = frozenset({
     "thin", "thick", "plain", "clean", "open", "closed", "smooth", "rough", "fresh", "ripe", "vintage", "antique",
     "ancient", "elegant", "warm", "cool", "light", "dark", "calm", "sleek", "quiet", "empty", "full", "heavy", "flat",
     "minimalist", "fluffy", "cozy", "striped", "curved", "sturdy", "rustic", "neat", "tidy", "happy", "sweet",
+    "juicy", "slender", "stylish", "functional", "delicate", "intricate", "crisp", "vibrant", "plump", "bold", "hefty",
+    "hot", "cold", "wet", "shiny", "dirty", "messy", "tasty", "creamy", "crunchy", "spicy", "salty", "dusty", "rusty",
+    "ornate", "pristine", "lush", "quaint", "serene", "retro", "unlit", "splendid", "fragrant", "translucent", "sharp",
+    "sour", "bitter", "sticky", "sleepy", "lively", "lovely", "cheerful", "polished", "weathered", "slim", "compact",
 })  # fmt: skip
 ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""

@@ -46,6 +46,15 @@ def refuse_negations(tokens: Sequence[Token]) -> None:
                 f'"all ... but {follower}" (word {token.number}): of how many is not said. Say how many there are: '
                 '"all but one of the six cups are red".'
             )
+        excepted = next(
+            (n for n in range(at + 2, min(at + 5, len(tokens) - 1)) if tokens[n].text in ("but", "save")), 0
+        )
+        if token.text in ("every", "each") and excepted and not any(each.mark for each in tokens[at:excepted]):
+            raise PromptError(
+                f'"{token.text} ... {tokens[excepted].text} {tokens[excepted + 1].text}" (word {token.number}): of how '
+                'many is not said. Say how many there are, and how many it is said of: "three of the four cups hold a '
+                'pen".'
+            )
         if token.text in ("every", "each") and follower in _ALTERNATE:
             raise PromptError(
                 f'"{token.text} {follower}" (word {token.number}): say which of them by their places: "the first '

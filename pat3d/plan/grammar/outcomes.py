@@ -58,12 +58,6 @@ def together(tokens: Sequence[Token]) -> Sequence[Token]:
 def brought(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "take the egg out of the pot and onto the plate" as "move the egg ...": it ends on the plate."""
     words = [token.text for token in tokens]
-    if words[0] in ("take", "lift", "remove") and words[1] in (*lexicon.DETERMINERS, "it", "them"):
-        # "Take the cup to the table"
-        end = next(n for n in range(len(words)) if tokens[n].mark or words[n] == "and")
-        links = [link for n in range(2, end) if (link := _link(tokens, n)) is not None]
-        if [link.manner for link in links if link.manner in ("source", "goal")][-1:] == ["goal"]:
-            return [replace(tokens[0], text="move"), *tokens[1:]]
     for joint in (n for n in range(3, len(words) - 2) if words[n] in ("and", "then") and _leads_to(tokens, n + 1)):
         begin = max((n for n in range(joint) if words[n] in TAKING), default=-1)
         between = (_link(tokens, n) for n in range(begin + 1, joint))

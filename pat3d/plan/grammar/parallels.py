@@ -44,7 +44,7 @@ def _like(chunks: Sequence[Chunk], at: int) -> Phrase | None:
     phrase = chunks[at].named
     (by, how), ends = _told_by(phrase), phrase.words.lower().split()[-1:]
     headless = phrase.kind == "pieces" and not phrase.said and (ends in (["one"], ["ones"]) or by in ("place", "other"))
-    if not (headless and by and at > 0 and chunks[at - 1].kind in ("joint", "clause")):
+    if not (headless and by and at and chunks[at - 1 - _led(chunks, at)].kind in ("joint", "clause")):
         return None
     before = [(n, one.phrase) for n, one in enumerate(chunks[:at]) if one.phrase and one.phrase.kind == "object"]
     for n, one in reversed(before):
@@ -60,14 +60,21 @@ def _otherwise(one: Phrase, by: str, how: object) -> bool:
     """Whether `one` is told in the manner of `by`, and otherwise than `how`."""
     if by == "other":
         return one.count == 1 and one.words.lower().split()[0] == "one"
-    return _told_by(one)[0] == by and _told_by(one)[1] != how
+    return not one.possessive and _told_by(one)[0] == by and _told_by(one)[1] != how
 
 
 def _as_much(chunks: Sequence[Chunk], one: int, other: int) -> bool:
-    """Whether the same kind of words follows chunks `one` and `other`: a verb, or "with" behind both."""
+    """Whether the same kind of words stands by chunks `one` and `other`: "in" before both, a verb or "with" behind."""
+    if _led(chunks, other):
+        return _led(chunks, one) and chunks[one - 1].link == chunks[other - 1].link
     if max(one, other) + 1 >= len(chunks):
         return False
     ours, theirs = chunks[one + 1], chunks[other + 1]
     if ours.link is not None and theirs.link is not None and ours.link == theirs.link:
         return True
     return all(piece.kind == "verb" or (piece.link is not None and piece.link.finite) for piece in (ours, theirs))
+
+
+def _led(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether a clause, or the sentence, begins with chunk `at` as a place: "in the second"."""
+    return at > 0 and chunks[at - 1].kind == "rel" and (at == 1 or chunks[at - 2].kind in ("joint", "clause"))

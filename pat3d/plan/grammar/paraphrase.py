@@ -22,10 +22,11 @@ from pat3d.plan.grammar.displaced import (
     fronted,
     in_place,
     stateless,
+    which_carries,
 )
 from pat3d.plan.grammar.enumerated import enumerated
 from pat3d.plan.grammar.gapping import ungapped
-from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.open_questions import refuse_inserted, refuse_negations
@@ -57,23 +58,6 @@ _SILENT = tuple(tuple(said.split()) for said in (
     "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
-_MANY_COLOURED = frozenset(
-    {
-        "rainbow-coloured",
-        "rainbow-colored",
-        "rainbow",
-        "multicolored",
-        "multicoloured",
-        "different",
-        "differently",
-        "colored",
-        "coloured",
-        "colorful",
-        "colourful",
-    }
-)
-_NUMBER_WORDS = {count: word for word, count in lexicon.NUMBERS.items() if count > 1 and word.isalpha()
-                 and word not in ("both", "pair", "couple", "trio", "dozen")}  # fmt: skip
 _FINITE = lexicon.COPULAS | lexicon.VERBS
 
 
@@ -94,7 +78,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(tokens, nouns), nouns)
-    return of_what(_relatives(by_which(_plain_words(tokens, nouns), nouns), nouns))
+    return of_what(_relatives(by_which(which_carries(_plain_words(tokens, nouns), nouns), nouns), nouns))
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
@@ -131,9 +115,7 @@ def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
         opens = token.mark and _said(text, token) == "(" and inside
         colours = sum(is_colour_word(each.text) for each in inside)
         closes = opens and _said(text, tokens[end]) == ")"
-        if closes and colours == len(inside) > 1 and (coloured := _in_colours(made, inside, nouns)):
-            made, at = coloured, end + 1
-        elif closes and colours < 2 and all(is_modifier(each.text) for each in inside):
+        if closes and colours < 2 and all(is_modifier(each.text) for each in inside):
             size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
             made[len(made) - size : len(made) - size] = inside
             at = end + 1
@@ -141,28 +123,6 @@ def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
             made.append(token)
             at += 1
     return made
-
-
-def _in_colours(tokens: Sequence[Token], colours: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens`, which end in "three boxes of different colors", as "three red, blue and green boxes"; else empty."""
-    words = [token.text for token in tokens]
-    end = len(words) - 3 if words[-3:-1] == ["of", "different"] else len(words)
-    size = next((n for n in (3, 2, 1) if n <= end and nouns.match(words[end - n : end])), 0)
-    first = end - size
-    while size and first and (is_modifier(words[first - 1]) or words[first - 1] in _MANY_COLOURED):
-        first -= 1
-    number = words[first - 1] if first else ""
-    told = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() else 0)
-    alone = not first or tokens[first - 1].mark or number in ("the", "stack", "pile", "place", "put", "and", "with")
-    if size and not told and alone and singulars(words[end - 1]) and len(colours) in _NUMBER_WORDS:
-        # "blocks (red, blue, green)"
-        number_word = replace(tokens[end - size], text=_NUMBER_WORDS[len(colours)])
-        return _in_colours([*tokens[:first], number_word, *tokens[first:]], colours, nouns)
-    if not size or told != len(colours):
-        return []
-    listed = [token for colour in colours for token in (colour, replace(colour, text=",", mark=True))][:-1]
-    kept = [token for token in tokens[first : end - size] if token.text not in _MANY_COLOURED]
-    return [*tokens[:first], *kept, *listed, *tokens[end - size : end]]
 
 
 def _said(text: str, token: Token) -> str:

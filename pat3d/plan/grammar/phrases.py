@@ -358,6 +358,9 @@ class PhraseReader:
             part = part and (inner.definite or not plural)
         elif head in lexicon.DETACHED and inner.definite:
             part = True
+        elif head in lexicon.FITTED and inner.definite:
+            # "the top rack of the oven"
+            part = self._nouns.of_class(inner.noun, (*lexicon.FLOOR, *lexicon.CLOSED))
         else:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)

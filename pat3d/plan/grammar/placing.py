@@ -84,6 +84,10 @@ class Placing:
                 world.note(f'"{children[0].group.words}": what it is {chunk.text} is not said.')
                 self._relating.cost += _UNSAID * (world.containment(children[0]) != "in")
             else:
+                if not owners and depth and len(children) < len(children[0].group.items):
+                    # "A rack with six tubes, three of them in front": of the rack, or the front ones.
+                    of = parents[0].group.words
+                    world.note(f'"{chunk.text}" is read as said of "{of}".')
                 self._relating.relate(children, chunk.link, parents)
             return
         side = chunk.text
@@ -91,6 +95,10 @@ class Placing:
             self._alike(children)
             return
         if side in ("both", "ends"):
+            some, whole = self._chunks[heads[0]].named, children[0].group.items
+            if {"each", "either"} & set(chunk.words) and some.kind == "pieces" and 2 * (some.count or 0) == len(whole):
+                # "Six chairs, three on each side"
+                children = list(whole)
             parents = owners or [item for item in implied if item not in children]
             if parents:
                 row = parents if parents[0].group.rows or len({item.group for item in parents}) > 1 else parents[:1]
@@ -135,7 +143,8 @@ class Placing:
         carriers = {self._world.support(item) for group in groups for item in group.items}
         groups = [group for group in groups if not carriers & set(group.items)]
         pair = groups[:1] if groups and len(groups[0].items) == 2 else groups[1::-1] if len(groups) > 1 else []
-        neighbours = [item for group in pair for item in group.items]
+        # "Two chairs facing each other with a table in between"
+        neighbours = [item for group in pair for item in group.items] or owners
         if len(neighbours) != 2:
             self._world.note(f'not understood: "{" ".join(self._chunks[at].words)}": between what is not said.')
             return

@@ -33,8 +33,9 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.plan.grammar.remarks import Remarks, Span
 from pat3d.plan.grammar.restated import chessmen
+from pat3d.plan.grammar.rows import told_rows
 from pat3d.plan.grammar.rules import Grammar
-from pat3d.plan.grammar.sentences import sentences
+from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.variants import varied
@@ -99,7 +100,7 @@ class GrammarPlanner:
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         text = normalise(prompt)
-        _check_language(text)
+        check_language(text)
         tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
@@ -129,7 +130,7 @@ class GrammarPlanner:
         Raises:
             PromptError: the sentence leaves open what is to be there.
         """
-        sentence, denials = without_denials(varied(sentence, self._nouns), self._nouns)
+        sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
         denied = tuple(_quoted(text, span) for span in denials)
         try:
             told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
@@ -204,7 +205,26 @@ class GrammarPlanner:
         tails = Tails(clause.tokens, self._nouns, _known(world))
         if told := self._without_one(text, clause, world, company, tails, tails.loose(failure.number)):
             return told
+        if told := self._beside(text, clause, world, company, tails.unrelated(failure.number)):
+            return told
         raise self._fault(clause, failure)
+
+    def _beside(
+        self, text: str, clause: Clause, world: World, company: Collection[str], verbs: Sequence[Span]
+    ) -> tuple[World, World | None] | None:
+        """`world` with what `clause` says, one of `verbs` read as "is next to"; None where it is not read so."""
+        for start, end in verbs if clause.manner is None else ():
+            verb = clause.tokens[start]
+            said = ("next", "to") if verb.text.endswith("ing") else ("is", "next", "to")
+            kept = [replace(verb, text=word) for word in said]
+            nearer = _copied(world)
+            nearer.note(f'"{_quoted(text, clause.tokens[start:end])}" is read as "next to".')
+            plain = replace(clause, tokens=(*clause.tokens[:start], *kept, *clause.tokens[end:]))
+            try:
+                return self._told(text, plain, nearer, company)
+            except PromptError:
+                continue
+        return None
 
     def _fault(self, clause: Clause, failure: UnreadError) -> PromptError:
         """`failure`, or that a thing of `clause` is not in the catalogue where only some other word was not read."""
@@ -223,7 +243,7 @@ class GrammarPlanner:
     ) -> tuple[World, World | None] | None:
         """`world` with what `clause` says around what names nothing at its word at fault; None without."""
         tails = Tails(clause.tokens, self._nouns, _known(world))
-        if world.groups and clause.manner is None and tails.whole():
+        if world.groups and clause.manner is None and (tails.whole() or tails.depicts(_known(world))):
             world.note(f'not modelled: "{_quoted(text, clause.tokens[:-1])}"')
             return world, None
         return self._without_one(text, clause, world, company, tails, tails.around(failure.number))
@@ -335,18 +355,6 @@ class GrammarPlanner:
             'is in the mug."',
             chunks[end].number,
         )
-
-
-def _check_language(text: str) -> None:
-    """Raises: PromptError: `text` is in another language than English."""
-    words = [word.strip(".,;:!?").lower() for word in text.split()]
-    foreign = [word for word in words if word in lexicon.FOREIGN]
-    english = sum(word in lexicon.DETERMINERS or word in ("is", "are", "with", "and", "of") for word in words)
-    letters = [letter for letter in text if letter.isalpha()]
-    other = [letter for letter in letters if ord(letter) > 0x24F]
-    if (len(foreign) >= 2 and len(foreign) > english) or len(other) * 2 > len(letters):
-        said = " ".join(foreign[:3]) or "".join(other[:8])
-        raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')
 
 
 def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:

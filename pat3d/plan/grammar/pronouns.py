@@ -95,6 +95,10 @@ class Pronouns:
             # "A lamp is on the left, a plant on the right, and between them a radio."
             together = [item for each in reversed(before) for item in each if item not in other]
             candidates.append((0.15, list(dict.fromkeys(together))))
+        alone = next((each[0] for each in before if plural and len(each) == 1), None)
+        if partners := [edge.parent for edge in self._world.laterals if edge.child is alone]:
+            # "A lamp is left of a sofa, and a plant stands between them."
+            candidates.append((0.2, [alone, *(item for item in partners if item not in other)]))
         which = phrase.head == "which"
         near = which or phrase.head in lexicon.DEMONSTRATIVES
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
@@ -118,7 +122,7 @@ class Pronouns:
             candidates.append((-0.4, world_front))
         if self._relating.landmark[0] and not near:
             # "A fork is left of a plate and a knife right of it"
-            aside = link is not None and link.kind in LATERAL_SIDES.values()
+            aside = link is not None and link.kind in LATERAL_SIDES.values() and link.manner != "between"
             landmark = self._relating.landmark[0]
             across = link is not None and any(
                 edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals

@@ -69,6 +69,7 @@ class References(Contrast):
                 generic += group.items
             if phrase.each and phrase.count is None:
                 world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
+            self._note_more(group)
             group.items[0].place = position(phrase)
             self.known[at] = self._the_one(group.items, phrase)
             if position(phrase) in ALONG and len(group.items) == 1:
@@ -96,7 +97,7 @@ class References(Contrast):
     def _refer(self, at: int, phrase: Phrase) -> list[Item] | None:
         """The objects already read that `phrase` speaks of, or None."""
         if phrase.head == "another" or phrase.kind not in ("object", "unknown") or phrase.other:
-            return None
+            return (self._rest_of(phrase) or None) if phrase.other and phrase.definite else None
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
         again = self._earlier if bare else []
@@ -142,6 +143,26 @@ class References(Contrast):
             storage = [item for item in storage if item.group.said not in lexicon.DRAWERS]
             return storage[-1:] or None
         return None
+
+    def _rest_of(self, phrase: Phrase) -> list[Item]:
+        """The other cups of which one or some were told apart: "one of three cups ..., the other two cups"."""
+        for group in (group for group in reversed(self._world.groups) if same_noun(group, phrase)):
+            untold = [item for item in self._world.telling if item in group.items]
+            if group.phrase.one_of:
+                untold = group.items[1:]
+            elif group.phrase.superlative != NO_MODIFIERS:
+                untold = [item for item in group.items if not (item.place or item.told.size_word)]
+            if untold and len(untold) < len(group.items) and len(untold) >= (phrase.count or 1):
+                return untold[: phrase.count or (None if phrase.plural else 1)]
+        return []
+
+    def _note_more(self, group: Group) -> None:
+        """Say that "the other two cups" are further ones where none of the three before was told from the rest."""
+        likes = [one for one in self._world.groups if one.noun == group.noun and one.exact and one is not group]
+        alike = [one for one in likes if len(one.items) > len(group.items) and not any(map(colours_of, one.items))]
+        if group.phrase.other and group.phrase.definite and alike:
+            total = len(alike[-1].items) + len(group.items)
+            self._world.note(f'"{group.words}" are read as further ones, {total} in all.')
 
     def _note_adjectives(self, phrase: Phrase) -> None:
         """Name what describes `phrase` and makes no difference to it; "top" tells which one."""
@@ -400,8 +421,9 @@ class References(Contrast):
         known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
-            more = replace(whole.phrase, words=phrase.words, count=phrase.count, plural=phrase.plural or count > 1,
-                           modifiers=words, definite=phrase.definite)  # fmt: skip
+            several = phrase.plural or count > 1 or phrase.words.endswith("ones")
+            more = replace(whole.phrase, words=phrase.words, count=phrase.count,
+                           plural=several, modifiers=words, definite=phrase.definite)  # fmt: skip
             return list(self._maker.make(self._world, more).items)
         picked = ([item for item in free if item in self._world.telling] or free)[:count]
         for item in picked:

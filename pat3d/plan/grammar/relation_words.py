@@ -53,7 +53,11 @@ class RelationWords(Cursor):
             )
             # Ends are those of a row: "at the left end" of a shelf is a part of it.
             told = key in SIDES and (key[-1] != "end" or key[-2] not in ("left", "right") or self._in_line())
-            if told and whole and self._words(size + 2)[size:] != ("one", "of") and self._word(size) != "of":
+            # "On the left one a cup, on the right one a glass": on things told by their sides.
+            member = key[-1] in ("left", "right") and self._word(size) in ("one", "ones")
+            member = member and self._nouns.match([self._word(size + 1)]) is None
+            member = member or self._words(size + 2)[size:] == ("one", "of")
+            if told and whole and not member and self._word(size) != "of":
                 self._add("place", size, text=SIDES[key])
                 return True
         return False

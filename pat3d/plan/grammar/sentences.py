@@ -1,10 +1,11 @@
-"""A prompt cut into sentences, each told where the one before it is known."""
+"""A prompt cut into its sentences, in the order in which they are read."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
@@ -117,3 +118,15 @@ def _reordered(told: list[list[Token]]) -> list[list[Token]]:
                 made.insert(before, made.pop(at))
                 break
     return made
+
+
+def check_language(text: str) -> None:
+    """Raises: PromptError: `text` is in another language than English."""
+    words = [word.strip(".,;:!?").lower() for word in text.split()]
+    foreign = [word for word in words if word in lexicon.FOREIGN]
+    english = sum(word in lexicon.DETERMINERS or word in ("is", "are", "with", "and", "of") for word in words)
+    letters = [letter for letter in text if letter.isalpha()]
+    other = [letter for letter in letters if ord(letter) > 0x24F]
+    if (len(foreign) >= 2 and len(foreign) > english) or len(other) * 2 > len(letters):
+        said = " ".join(foreign[:3]) or "".join(other[:8])
+        raise PromptError(f'"{said}": prompts are read in English only: "a red mug on a wooden table".')

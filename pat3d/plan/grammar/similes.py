@@ -18,6 +18,7 @@ _LOOKING = frozenset(
     {"shaped", "looking", "looks", "look", "painted", "styled", "designed", "formed", "coloured", "colored"}
 )
 _RESEMBLING = frozenset({"resembling", "resembles", "resemble", "imitating", "mimicking"})
+_SERVING = frozenset({"serves", "serving", "acts", "acting", "used", "functions", "functioning", "doubles", "doubling"})
 _MEASURES = frozenset({"size", "colour", "color", "shape", "form", "height", "length", "width", "likeness", "style"})
 _BEFORE = frozenset(
     {"that", "which", "who", "twice", "half", "double", "almost", "exactly", "about", "roughly", "just"}
@@ -53,6 +54,8 @@ def _opening(words: Sequence[str], at: int) -> int:
     """The word behind "shaped like", "as red as", "the size of" at word `at`; 0 where none of them stands there."""
     three = words[at : at + 3]
     if words[at] in _LOOKING and words[at + 1 : at + 2] in (["like"], ["as"]):
+        return at + 2
+    if words[at] in _SERVING and words[at + 1 : at + 2] == ["as"]:
         return at + 2
     if words[at] in _RESEMBLING:
         return at + 1

@@ -47,6 +47,12 @@ _GOING = frozenset({"fall", "drop", "roll", "fly", "go", "run", "jump", "slide",
     "build",
     "miss", "lack", "have", "point", "face", "lean", "hang", "replace", "exchange", "divide", "split"})  # fmt: skip
 """Verbs that say where something is, or how much of it."""
+_PARTICLES = frozenset({"up", "over", "down"})
+_NO_VERBS = frozenset(
+    {"lacks", "needs", "missing", "lacking", "becomes", "means", "as", "towards", "besides", "is", "has"}
+)
+_SCREENS = frozenset({"screen", "screens", "display", "displays", "wallpaper"})
+_CELLS = frozenset({"row", "column", "line"})
 _LEAVING = frozenset({"off", "from", "out", "of", "into", "onto", "to"})
 _ADVERBS = frozenset({"apart", "away", "aside", "back", "ago", "later", "before", "so"})
 _TRIED = 10
@@ -80,7 +86,8 @@ class Tails(Remarks):
         ends = end == len(self._words) - 1 and any(at < start for at in self._named)
         plain = not (set(self._words[start:end]) & {",", "and", "then"}) and self._words[start - 1] not in _OWING
         leads = (word == "to" and not verb.endswith("ing")) or (word == "for" and verb.endswith("ing"))
-        return leads and ends and plain and deed not in _PUTTING and (base_verb(verb) or word == "to") is not None
+        plain = plain and (word == "for" or deed not in _PUTTING)
+        return leads and ends and plain and (base_verb(verb) or word == "to") is not None
 
     def loose(self, number: int) -> list[Span]:
         """Words around word `number` that name, count and relate nothing, fewest first: "away", "at random places"."""
@@ -90,11 +97,25 @@ class Tails(Remarks):
         made = [
             (start, end)
             for end in range(fault, min(fault + 6, len(self._words)))
-            for start in range(max(1, fault - 4), fault + 2)
+            for start in range(max(1, fault - 8), fault + 2)
             if start < end and self._is_loose(start, end)
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        return [span for span in made if self._says_nothing(*span)][:_TRIED]
+        cells = [span for span in made if self._words[span[1] - 1] in _CELLS]
+        return [span for span in made if span in cells or self._says_nothing(*span)][:_TRIED]
+
+    def unrelated(self, number: int) -> list[Span]:
+        """Verbs near word `number` that may relate one thing to another, and that no table has: "guards a bowl"."""
+        made: list[Span] = []
+        for at in range(1, len(self._words) - 2):
+            end = at + 1 + (self._words[at + 1] in _PARTICLES)
+            near = 0 <= number - self._tokens[at].number <= 4 and not self._tokens[at].mark
+            word, verb = self._words[at], base_verb(self._words[at])
+            acts = verb is not None or (word.endswith(("s", "ed")) and not link_at(self._tokens, at))
+            plain = verb not in _GOING and word not in MOVING | FINITE | _NO_VERBS and at not in self._named
+            if near and acts and plain and self._behind_noun(at) and self._words[at - 1] != "," and self._begins(end):
+                made.append((at, end))
+        return made
 
     def _is_loose(self, start: int, end: int) -> bool:
         """Whether tokens `start` to `end` tell only how: an adverb, a verb before its relation, "at random places"."""
@@ -103,6 +124,8 @@ class Tails(Remarks):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
             return False
+        if words[:2] == ["in", "the"] and words[-1] in _CELLS and len(words) > 3:
+            return all(word in _CELLS | {"in", "the", "of"} or word in lexicon.POSITIONS for word in words)
         if words in (["in", "the", "row"], ["in", "the", "line"]):
             return self._behind_noun(start)
         if len(words) == 1 and is_marked(words[0]):
@@ -162,6 +185,14 @@ class Tails(Remarks):
 
     def _in_name(self, at: int) -> bool:
         return any(start <= at < start + size for start, size in self._named.items())
+
+    def depicts(self, known: Collection[str]) -> bool:
+        """Whether the sentence tells what the screen of a `known` thing shows: "the screen shows a spreadsheet"."""
+        shown = any(word in _SCREENS and self._words[at - 1] in ("the", "its", "'s", "their", "on")
+                    for at, word in enumerate(self._words))  # fmt: skip
+        named = ((at, self._nouns.match(self._words[at : at + size])) for at, size in self._named.items())
+        told = {found.noun for at, found in named if found is not None and self._words[at] not in _SCREENS}
+        return shown and told <= set(known)
 
     def whole(self) -> bool:
         """Whether the sentence names nothing new at all, and places nothing: "The challenge lies in the angles"."""

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.modifiers import is_marked, is_modifier
 from pat3d.plan.grammar.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.vocabulary import Nouns
 
+_STANDS = ("table", "stand", "base", "pedestal", "shelf", "tray", "plate", "support", "seat", "platform", "holder")
 _COLOURS = ("colors", "colours")
 _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     **{("all", "of", the): ("all", the) for the in ("the", "these", "those", "my", "your", "our", "his", "her")},
@@ -28,6 +29,20 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
         ("each", led, "a", "different", colour): ("of", "different", "colors")
         for led in ("in", "of", "with")
         for colour in ("color", "colour")
+    },
+    **{(that, include): ("including",) for that in ("that", "which") for include in ("include", "includes")},
+    **{
+        ("a", bit, closer): (closer,) for bit in ("bit", "little") for closer in ("closer", "nearer", "further", "away")
+    },
+    ("all", "set", "together"): ("together",),
+    ("wherever", "there", "is", "a"): ("every",),
+    **{
+        (serves, "as", "a", stand, "for"): ("carries",) for serves in ("serves", "acts", "doubles") for stand in _STANDS
+    },
+    **{
+        (serving, "as", "a", stand, "for"): ("carrying",)
+        for serving in ("serving", "acting", "used")
+        for stand in _STANDS
     },
     ("atleast",): ("at", "least"),
     ("atmost",): ("at", "most"),
@@ -140,11 +155,21 @@ def _made_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _plain(tokens: Sequence[Token]) -> list[Token]:
+    wherever = tokens[0].text == "wherever" and not any(token.text == ":" for token in tokens)
     made: list[Token] = []
     at = 0
     while at < len(tokens):
         words = tuple(token.text for token in tokens[at : at + 5])
-        size = next((n for n in (5, 4, 3, 2, 1) if words[:n] in _PLAINER), 0)
+        if words[:2] == ("there", "is") and made and wherever:
+            # "Wherever there is a plate there is also a fork on it."
+            made.append(replace(tokens[at], text="has"))
+            at += 2 + (words[2] == "also")
+            continue
+        size = (
+            0
+            if words[:1] == ("wherever",) and not wherever
+            else next((n for n in (5, 4, 3, 2, 1) if words[:n] in _PLAINER), 0)
+        )
         told = _PLAINER[words[:size]] if size else ()
         follower = tokens[min(at + size, len(tokens) - 1)].text
         leads = follower in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
@@ -205,7 +230,9 @@ def _one_adjective(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     while at < len(tokens):
         word, end = tokens[at].text, at + 1
         led = at and tokens[at - 1].text in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
-        if word == "half" and tokens[end].text.endswith(("ed", "en")) and base_verb(tokens[end].text):
+        after = tokens[min(at + 2, len(tokens) - 1)]
+        whole = after.mark or is_modifier(after.text) or nouns.match([after.text])
+        if word == "half" and whole and tokens[end].text.endswith(("ed", "en")) and base_verb(tokens[end].text):
             end += 1
             made.append(replace(tokens[at], text=f"half-{tokens[end - 1].text}", end=tokens[end - 1].end))
             at = end

@@ -145,6 +145,8 @@ class World:
         self.laterals: list[Edge] = []
         self.sided: list[Sided] = []
         self.arranged: list[Arranged] = []
+        self.grounded: set[Item] = set()
+        """Some of what something carries, said to be on the floor: "five books, two of them on the floor"."""
         self.over: list[tuple[Item, Item]] = []
         """What is said to be over or to cover what, which a vessel turned over does around it."""
         self.steps: list[Step] = []

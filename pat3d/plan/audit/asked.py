@@ -1,0 +1,161 @@
+"""What is to be done, against the tasks and the scene before them: what is moved, where it is already, what is lost."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.words import DEEDS, REQUESTS
+
+_MOVING = frozenset({"take", "bring", "carry", "move", "deliver", "transfer", "return", "push", "slide", "get"})
+_PUTTING = frozenset({"put", "place", "move", "set", "lay", "insert", "drop", "stack", "pick"})
+_REACH = 12
+"""Words from what is taken to where it is taken."""
+_ARMED = frozenset({"bear", "doll", "statue", "figurine", "robot", "monkey", "rabbit", "snowman", "teddy", "figure",
+                    "sculpture", "clown", "gnome", "soldier", "penguin"})  # fmt: skip
+"""Last words of what holds something in its arms."""
+_GOALS = frozenset({"of", "to", "into", "onto", "in", "on"})
+_FURTHER = frozenset({"another", "more", "further", "third", "fourth", "extra", "second", "other", "new", "else"})
+
+
+def requests(it: Compared) -> Iterator[tuple[int, str]]:
+    """What a request wants otherwise than the plan has it."""
+    yield from _taken_to(it)
+    yield from _there_already(it)
+    yield from _forgotten(it)
+    yield from _nothing_inside(it)
+    yield from _one_more(it)
+    yield from _posed_already(it)
+    yield from _held_in_arms(it)
+
+
+def _taken_to(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is to be taken somewhere and is there already: "take the plate to the table"."""
+    words = it.said.words
+    for at in (at for at, word in enumerate(words) if word in _MOVING):
+        moved = next((one for one in it.said.mentions if at < one.start), None)
+        if moved is None or moved.first > at + 1:
+            continue
+        goal = next((one for one in it.said.mentions if words[one.first - 1] == "to" and one.start > moved.end), None)
+        if goal is None or goal.first > moved.end + _REACH or DEEDS & {*words[moved.end : goal.first - 1]}:
+            continue
+        names, places = ({obj.name for obj in it.which(one)} for one in (moved, goal))
+        there = any(rel.supports and rel.child in names and rel.parent in places for rel in it.plan.relations)
+        told = any(claim.of is not None and claim.of.noun == goal.noun and claim.place in ("on", "in", "from")
+                   and claim.of is not goal for claim in it.said.claims)  # fmt: skip
+        said = " ".join(words[at : goal.end])
+        if there and not told and not it.named(said):
+            yield at, f'not as said: "{said}"; it is there already'
+
+
+def _there_already(it: Compared) -> Iterator[tuple[int, str]]:
+    """Where something is to be put, and where the scene before the task has it: "... and the blue one on the shelf"."""
+    if "is read as the scene" in it.quoted or not (it.tasks.strip() or it.undone):
+        return
+    words = it.said.words
+    phrases = {obj.name: obj.phrase.lower().split() for obj in it.plan.objects}
+    landmarks = {claim.of.end for claim in it.said.claims if claim.of is not None}
+    for claim in it.said.claims:
+        start = max((at + 1 for at in range(claim.at) if words[at] in (".", ";", "!", "then")), default=0)
+        goal = claim.place in ("on", "on top", "in") and claim.of is not None
+        ends = words[claim.end : claim.end + 1] in ([], ["."], [","], ["and"], [";"], ["then"])
+        if not goal or not ends or claim.of is None or words[start] not in _PUTTING - {"pick"} or claim.at in landmarks:
+            continue
+        places = {obj.name for obj in it.which(claim.of)}
+        for rel in it.plan.relations:
+            phrase = phrases[rel.child]
+            behind = (
+                words[claim.at - len(phrase) : claim.at] == phrase and words[claim.at - len(phrase) - 1] not in _GOALS
+            )
+            kept = {"leave", "keep", "leaving"} & {*words[start : claim.at]}
+            if (
+                rel.supports
+                and rel.parent in places
+                and phrase
+                and behind
+                and not kept
+                and not it.named(" ".join(phrase))
+            ):
+                yield claim.at, f'"{" ".join(phrase)} {claim.said}" is read as where it is before the task'
+
+
+def _forgotten(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is added to what is to be moved, and is in no task: "put the cup on the tray and then the bowl"."""
+    words = it.said.words
+    if not it.tasks.strip() or "unload" in it.tasks:
+        return
+    subjects = [claim.of for claim in it.said.claims]
+    for mention in it.said.mentions:
+        start = max((at + 1 for at in range(mention.first) if words[at] in (".", ";", "!")), default=0)
+        before, behind = words[mention.first - 1 : mention.first], words[mention.end : mention.end + 1]
+        added = before in (["then"], ["also"]) or (before == [","] and words[mention.first - 2] != ",")
+        free = words[mention.first] == "the" and behind in ([], ["."], [","], ["and"])
+        if words[start] not in _PUTTING or not added or not free or mention in subjects:
+            continue
+        names = {obj.name for obj in it.which(mention)}
+        landmark = any(b in names for _, _, b in it.edges if not b.isdigit()) and before == [","]
+        tasked = any(name in it.tasks for name in names)
+        if names and not tasked and not landmark and mention.text not in it.quoted:
+            yield mention.start, f'"the {mention.text}" is in no task'
+
+
+def _nothing_inside(it: Compared) -> Iterator[tuple[int, str]]:
+    """What is to be emptied, and holds nothing."""
+    kind, _, name = (it.plan.task or "").partition(":")
+    if kind == "unload" and not any(rel.supports and rel.parent == name for rel in it.plan.relations):
+        yield 0, f'"{name}" is to be emptied; what is in it is not said'
+
+
+def lost(it: Compared) -> bool:
+    """Whether the first thing that is asked for is neither a task nor in a note: "get me the pen, then close it"."""
+    first = next((word for word in it.said.words if word not in ("please", "could", "can", "you", "now")), "")
+    return first in REQUESTS and not it.tasks.strip() and first not in it.undone and "is read as" not in it.quoted
+
+
+def _one_more(it: Compared) -> Iterator[tuple[int, str]]:
+    """What "a box" is one more of, though several were told of before: "there are two boxes. A ball is in a box"."""
+    words = it.said.words
+    if _FURTHER & {*words}:
+        return
+    for mention in it.said.mentions:
+        phrase = words[mention.first : mention.end]
+        own = [obj for obj in it.plan.objects if obj.phrase.lower().split() == phrase]
+        before = [one for one in it.said.mentions
+                  if one.noun == mention.noun and one.part < mention.part and (one.number or 0) > 1
+                  and {*one.colours} <= {*mention.colours}]  # fmt: skip
+        if phrase[0] not in ("a", "an") or not own or not before or mention.text in it.told:
+            continue
+        several = before[-1]
+        if len(it.of(several)) > (several.number or 0):
+            said = " ".join(words[several.first : several.end])
+            yield mention.start, f'"{" ".join(phrase)}" is read as one more than "{said}"'
+
+
+def _posed_already(it: Compared) -> Iterator[tuple[int, str]]:
+    """How something is to be turned, where it stands so before the task: "put the mug upside down on the tray"."""
+    words = it.said.words
+    if not it.tasks.strip() or words[0] not in _PUTTING | {"turn", "flip"}:
+        return
+    turned = {one.object for one in it.plan.postures if one.arranged and one.kind == "upside_down"}
+    for at in (at for at in range(2, len(words)) if words[at - 1 : at + 1] == ["upside", "down"]):
+        before = next((one for one in it.said.mentions if one.end == at - 1), None)
+        if before is not None and turned & {obj.name for obj in it.which(before)} and "upside" not in it.quoted:
+            yield at, f'"upside down" of "{before.text}" is read as how it stands before the task'
+
+
+def _held_in_arms(it: Compared) -> Iterator[tuple[int, str]]:
+    """What an animal or a doll holds, which the plan puts on it."""
+    words = it.said.words
+    for claim in it.said.claims:
+        owner = next((one for one in it.said.mentions if one.end == claim.at), None)
+        holds = claim.place == "holding" and words[claim.at] in ("holding", "holds", "carrying", "carries")
+        if not holds or claim.of is None or it.named(claim.said) or not (
+            (owner is not None and {*owner.noun.split()} & _ARMED) or any(
+                {*one.noun.split()} & _ARMED for one in it.said.mentions if one.end <= claim.at)):  # fmt: skip
+            continue
+        near = owner if owner is not None and {*owner.noun.split()} & _ARMED else None
+        told = near or next(one for one in it.said.mentions if {*one.noun.split()} & _ARMED)
+        told_of = re.search(rf'{re.escape(told.text)}" {re.escape(words[claim.at])} "', it.quoted)
+        if not told_of and (near is not None or (owner is not None and owner.noun in it.furniture)):
+            yield claim.at, f'not arranged: "{told.text}" {claim.said}'
