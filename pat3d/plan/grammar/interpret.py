@@ -357,6 +357,10 @@ class Interpreter(Placing):
         if link.manner == "far" and self._clause.manner is not None:
             # "Take the cup away from the table": before that it is there.
             link = Link(manner="source")
+        standing = children and parents and all(self._world.on_floor(item) for item in (children[0], parents[0]))
+        if link.manner == "source" and self._clause.manner is not None and standing:
+            # "Pull the chair away from the table"
+            link = Link(kind="next_to")
         if self._clause.manner is None:
             link = self._resting(at, link, children, parents)
         places = [self._chunks[head].phrase for head in parent_heads]

@@ -338,6 +338,12 @@ def tell_colours(world: World, group: Group, told: Modifiers) -> None:
         item.colours = (shared[index % len(shared)],)
 
 
+def _inherited(group: Group) -> bool:
+    """Whether `group` is one more of a kind, and its colour is that of those before: "two red cups, a third one"."""
+    words = group.words.lower().split()
+    return words[-1:] in (["one"], ["another"]) and not any(word in COLOURS for word in words)
+
+
 def describe(group: Group, told: Modifiers, part: str = "") -> None:
     """Give `group` what a later remark says of it: "is wooden", or of its `part`: "with red covers".
 
@@ -345,6 +351,8 @@ def describe(group: Group, told: Modifiers, part: str = "") -> None:
     """
     own = group.modifiers
     colours = (*told.colours, *told.palette[: 1 if len(group.items) > 1 else None])
+    if told.colours and not part and _inherited(group):
+        own = replace(own, colours=())
     adjectives = told.adjectives
     if part and not own.colours and part not in lexicon.MAIN_PARTS:
         adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()

@@ -103,7 +103,8 @@ class Pronouns:
             together = [item for each in reversed(before) for item in each if item not in other]
             candidates.append((0.15, list(dict.fromkeys(together))))
         alone = next((each[0] for each in before if plural and len(each) == 1), None)
-        if partners := [edge.parent for edge in self._world.laterals if edge.child is alone]:
+        partners = [edge.parent for edge in self._world.laterals if edge.child is alone]
+        if alone is not None and partners:
             # "A lamp is left of a sofa, and a plant stands between them."
             candidates.append((0.2, [alone, *(item for item in partners if item not in other)]))
         which = phrase.head == "which"

@@ -347,7 +347,8 @@ class References(Contrast):
             # "Four mugs, one of which holds a pen and another a spoon"
             return [self._world.telling.pop(0)]
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-        groups = [named[0][0].group] if named else self._world.groups[-1:]
+        before = [item.group for item in self._world.subject[:1]] or self._world.groups[-1:]
+        groups = [named[0][0].group] if named else before
         if (alike := self._carrier_like(at)) is not None:
             groups = [alike]
         counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
