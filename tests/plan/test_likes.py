@@ -31,6 +31,9 @@ def told(plan: ScenePlan, noun: str) -> list[tuple[str, ...]]:
          [("small",), ("large",), ()]),
         ("Put the metal spoon in the cup and the wooden spoon in the jar.", "spoon", [("metal",), ("wooden",)]),
         ("The dirty mug is beside the clean mug.", "mug", [("dirty",), ("clean",)]),
+        ("The clean plate is on a shelf and the dirty one in the sink.", "plate", [("clean",), ("dirty",)]),
+        ("Two clean cups and a dirty one are on a tray. The dirty one is red.", "cup",
+         [("clean",), ("clean",), ("red", "dirty")]),
         ("There is a wooden spoon. The spoon is in a cup.", "spoon", [("wooden",)]),
         ("A long spoon is in a jar. The spoon is red.", "spoon", [("red", "long")]),
     ],
@@ -39,6 +42,11 @@ def test_members_of_a_kind(planner: GrammarPlanner, prompt: str, noun: str, expe
     plan = planner.plan(prompt)
     assert told(plan, noun) == expected
     assert not any(start in note for note in plan.notes for start in ("counted otherwise", "not understood"))
+
+
+def test_what_is_on_it_is_on_what_the_sentence_is_about(planner: GrammarPlanner):
+    plan = planner.plan("On the desk is a large box, and a small one stands on top of it.")
+    assert [(rel.child, rel.parent) for rel in plan.relations] == [("large box", "desk"), ("small box", "large box")]
 
 
 def test_two_names_of_one_sentence_are_two_things(planner: GrammarPlanner):

@@ -127,6 +127,9 @@ class References(Contrast):
                 coloured = {own, *(item.colours for item in group.items if item.colours)}
                 if group in besides and (same is same_head or phrase.modifiers.colours not in coloured):
                     continue
+                if group in besides and group.noun == phrase.noun and group.said != phrase.said:
+                    # "A couch faces the sofa": two.
+                    continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
                 if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
