@@ -84,7 +84,9 @@ def _owner(it: Compared, at: int) -> tuple[Mention | None, int]:
         before = lead[lead.index("of") - 1]
         return owner, NUMBERS.get(before, 0)
     several = {"both", "all"} & {*words[max(owner.first - 2, 0) : owner.start]} or (owner.number or 0) > 1
-    return owner, len(it.which(owner)) if several else 0
+    there = len(it.which(owner))
+    # "One of three bowls holds a lime, the other two bowls hold an egg."
+    return owner, min(there, owner.number or there) if several else 0
 
 
 def _the_rest(it: Compared) -> Iterator[tuple[int, str]]:
@@ -277,6 +279,11 @@ def _all_but_one(it: Compared) -> Iterator[tuple[int, str]]:
         lead = words[max(mention.first - 1, 0) : mention.start]
         behind = words[mention.end : mention.end + 2]
         apart = behind[:1] == ["but"] and behind[1:] in (["one"], ["two"], ["the"], ["three"])
+        claim = next((one for one in it.said.claims if one.at > mention.end and one.of is not None), None)
+        names = {obj.name for obj in it.which(mention)}
+        things = {obj.name for obj in it.which(claim.of)} if claim is not None and claim.of is not None else set()
+        if len(names) > 1 and len({b for a, _, b in it.edges if b in names and a in things}) == len(names) - 1:
+            continue
         if apart and {"every", "each"} & {*lead} and "but" not in it.quoted:
             yield mention.end, f'not modelled: "{" ".join(behind)}" of "{mention.text}"'
 
