@@ -92,8 +92,7 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         if not _commands(made, at) or made[at].text not in _TAKING | _UNLOADING:
             continue
         end = _end(made, at)
-        goal = next((n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS
-                     and _leads(made, n + link_at(made, n))), 0)  # fmt: skip
+        goal = _goal(made, at + 2, end)
         verb, joined = made[at].text, made[goal - 1].text == "and"
         source = any(made[n].text == "from" for n in range(at, goal))
         if not goal or (verb == "pick" and not joined) or (verb in _UNLOADING and (verb == "empty" or not source)):
@@ -103,6 +102,17 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         kept = [token for n, token in enumerate(made) if n not in drop]
         return _carried(kept) if any(_commands(kept, n) for n in range(at + 1, len(kept))) else kept
     return made
+
+
+def _goal(tokens: Sequence[Token], start: int, end: int) -> int:
+    """Where from `start` to `end` "to the table" begins, but not that of "next to the table"; 0 where nowhere."""
+    at = start
+    while at < end:
+        size = link_at(tokens, at)
+        if size and tuple(token.text for token in tokens[at : at + size]) in _GOALS and _leads(tokens, at + size):
+            return at
+        at += size or 1
+    return 0
 
 
 def _emptied(tokens: Sequence[Token]) -> list[Token]:

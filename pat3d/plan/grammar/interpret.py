@@ -238,6 +238,7 @@ class Interpreter(Placing):
         made_up = (
             self._clause.manner in ("make", "stack")
             and not taken
+            and not self._clause.then
             and all(
                 phrase is not None
                 and phrase.determined
