@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from pat3d.plan.audit.compared import Compared
@@ -155,5 +156,6 @@ def _held_in_arms(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         near = owner if owner is not None and {*owner.noun.split()} & _ARMED else None
         told = near or next(one for one in it.said.mentions if {*one.noun.split()} & _ARMED)
-        if near is not None or (owner is not None and owner.noun in it.furniture):
+        told_of = re.search(rf'{re.escape(told.text)}" {re.escape(words[claim.at])} "', it.quoted)
+        if not told_of and (near is not None or (owner is not None and owner.noun in it.furniture)):
             yield claim.at, f'not arranged: "{told.text}" {claim.said}'

@@ -20,6 +20,9 @@ def chained(it: Compared) -> Iterator[tuple[int, str]]:
     claims = [claim for claim in it.said.claims if claim.place in _CHECKED]
     for one, other in zip(claims, claims[1:], strict=False):
         subjects = _joined(it, one, other, claims) or _fronted(it, one, other)
+        if other.of is not None and other.of.noun in it.furniture and subjects == _fronted(it, one, other):
+            # "On the rug next to the bed stands a lamp": the rug may be next to the bed.
+            continue
         if subjects and other.of is not None and one.of is not None and not it.excused(other):
             yield from _of_the_landmark(it, one.of, other, subjects)
     yield from _on_which(it)
@@ -67,6 +70,10 @@ def _fronted(it: Compared, one: Claim, other: Claim) -> list[Mention]:
     between = words[one.end : other.at]
     at = other.end + (words[other.end : other.end + 1] == [","])
     if not begins or between not in ([], [","]) or not words[at : at + 1] or words[at] not in FINITE | {"there"}:
+        return []
+    floor = it.furniture | {"rug", "mat", "carpet"}
+    if one.of is not None and other.of is not None and {one.of.noun, other.of.noun} <= floor:
+        # "On the rug beside the bed stands a lamp": the rug is beside the bed too.
         return []
     while at < len(words) and words[at] in POSED | {"there", "'s"}:
         at += 1

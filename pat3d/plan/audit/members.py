@@ -12,6 +12,7 @@ from pat3d.plan.audit.places import for_each
 from pat3d.plan.audit.subjects import row_of
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import EACH, FORMED, HEADLESS, NUMBERS, POSED
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _OPPOSED = tuple(frozenset(pair) for pair in (
     ("left", "right"), ("top", "bottom"), ("upper", "lower"), ("front", "back"), ("first", "second"), ("big", "small"),
@@ -83,6 +84,8 @@ def _owner(it: Compared, at: int) -> tuple[Mention | None, int]:
     if "of" in lead:
         before = lead[lead.index("of") - 1]
         return owner, NUMBERS.get(before, 0)
+    if {"other", "remaining"} & {*words[max(owner.first - 2, 0) : owner.start]}:
+        return owner, owner.number or 0
     several = {"both", "all"} & {*words[max(owner.first - 2, 0) : owner.start]} or (owner.number or 0) > 1
     return owner, len(it.which(owner)) if several else 0
 
@@ -277,7 +280,10 @@ def _all_but_one(it: Compared) -> Iterator[tuple[int, str]]:
         lead = words[max(mention.first - 1, 0) : mention.start]
         behind = words[mention.end : mention.end + 2]
         apart = behind[:1] == ["but"] and behind[1:] in (["one"], ["two"], ["the"], ["three"])
-        if apart and {"every", "each"} & {*lead} and "but" not in it.quoted:
+        things = [obj.name for obj in it.which(mention)]
+        having = {b for _, kind, b in it.edges if b in things and kind in SUPPORT_KINDS}
+        left_out = len(things) > 1 and len(having) == len(things) - NUMBERS.get("".join(behind[1:]), 1)
+        if apart and {"every", "each"} & {*lead} and "but" not in it.quoted and not left_out:
             yield mention.end, f'not modelled: "{" ".join(behind)}" of "{mention.text}"'
 
 
