@@ -95,6 +95,8 @@ class Clause:
     """Whether the sentence begins with it."""
     aside: tuple[str, ...] = ()
     """What was left out of the sentence before it was read, piece by piece."""
+    then: bool = False
+    """Whether the sentence goes on with what is to be done then, so that this is a deed and no scene."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -153,7 +155,11 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
             aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
             body = [*body[:with_it], *body[after:]]
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
+        later = next((at for begin, at in starts if begin == end), 0)
+        then = bool(later) and "then" in {token.text for token in tokens[end:later]}
+        then = then and tokens[later + 1].text in lexicon.DEFINITE | {"it", "them"}
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside,
+                           then=then))  # fmt: skip
     return made
 
 
@@ -335,14 +341,25 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
     if not specs:
-        # "Grasp the block, then turn it": of the two, the first is a task.
-        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
+        # "Grasp the block, then turn it": of the two, the first is a task; not of "..., then put it beside the cup".
+        begun_only = [
+            step for step in steps if step.manner == "pick" and step not in wanted and not _is_put(step, steps)
+        ]
+        picks = (_specs(step, world, names) for step in begun_only)
         specs = next((made for made in picks if made), [])
     if len(specs) > 1:
         listed = ", ".join(specs)
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
         return None, notes
     return (specs[0] if specs else None), notes
+
+
+def _is_put(picked: Step, steps: Sequence[Step]) -> bool:
+    """Whether one of `steps` behind `picked` says where its things are to go."""
+    later = steps[list(steps).index(picked) + 1 :]
+    verbs = [next((_base(word) for word in step.said.lower().split() if _base(word) in _VERBS), "")
+             for step in later if set(step.items) & set(picked.items)]  # fmt: skip
+    return any(_VERBS.get(verb, "other") != "other" for verb in verbs)
 
 
 def _unsaid(step: Step, world: World) -> list[str]:
