@@ -1,4 +1,4 @@
-"""Instructions: which clause tells a robot what to do, the scene before it is done, and the task that it is.
+"""Instructions: which clause tells a robot what to do, and the scene before it is done.
 
 "Put the soup in the basket" makes a soup and a basket and the task place:soup:basket. What is told of indefinite things
 with a verb of placing ("put two mugs on a shelf") describes the scene to make.
@@ -6,10 +6,8 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
@@ -22,7 +20,7 @@ from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.wielded import wielded
-from pat3d.plan.grammar.world import Item, Manner, Step, World
+from pat3d.plan.grammar.world import Manner
 from pat3d.scene.relations import SUPPORT_KINDS
 
 _VERBS: dict[str, Manner] = {
@@ -66,10 +64,6 @@ _ASKING = (
     ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
     ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
-_FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
-"""Verbs of placing that say how several things stand together."""
-_ELSEWHERE = re.compile(r"\b(?:on|onto|in|into|at|from)\b (?!(?:top of )?(?:each|one|another)|an? )|,", re.IGNORECASE)
-"""Words by which a stack is said to stand somewhere, or more is said of it."""
 SHUTTING = frozenset({"open", "close", "shut"})
 """Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
@@ -327,105 +321,3 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
             if acts and ahead < len(words) and _base(words[ahead]) in _VERBS:
                 return at + ahead
     return 0
-
-
-def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[str]]:
-    """The one task that the steps of `world` are, None where no kind of task is, and notes on what is not in it.
-
-    Args:
-        world: with what is to be done, in order.
-        names: of the objects of the plan.
-    """
-    steps = world.steps
-    notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
-    # To pick what something is done with afterwards is the beginning of that.
-    begun = [{item for later in steps[at + 1 :] for item in later.items} for at in range(len(steps))]
-    wanted = [
-        step
-        for step, later in zip(steps, begun, strict=True)
-        if step.manner != "other" and step.items and not (step.manner == "pick" and set(step.items) & later)
-    ]
-    specs: list[str] = []
-    for step in wanted:
-        made = _specs(step, world, names)
-        notes += _unsaid(step, world)
-        if not made:
-            notes.append(f'not modelled: "{step.said}": no task does that.')
-        specs += made
-    if not specs:
-        # "Grasp the block, then turn it": of the two, the first is a task.
-        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
-        specs = next((made for made in picks if made), [])
-    if len(specs) > 1:
-        listed = ", ".join(specs)
-        notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
-        return None, notes
-    return (specs[0] if specs else None), notes
-
-
-def _unsaid(step: Step, world: World) -> list[str]:
-    """What `step` asks beyond its task, and what it leaves open."""
-    notes: list[str] = []
-    verb = next((word for word in step.said.lower().split() if _base(word) in _VERBS), "")
-    if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
-        named = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in step.items))
-        if not any(item in world.supports for item in step.items):
-            notes.append(f"{named}: what is in it is not said; it is made empty.")
-    if verb in _FORMING and step.manner == "make":
-        notes.append(f'not modelled: "{verb}": a task asks where each thing is put, not how they stand together.')
-    return notes
-
-
-def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
-    if step.manner == "unload":
-        edges = [(item, world.supports.get(item)) for item in step.items[:1]]
-        # "unload the cups from the crate" is about the crate.
-        taken = bool({"from", "off", "out"} & set(step.said.lower().split()))
-        holders = [edge.parent if edge and (taken or edge.kind == "in") else item for item, edge in edges]
-        likely = world.likely
-        holders = [item for item in holders if likely.hollow(world.noun(item)) or likely.closet(world.noun(item))]
-        return [f"unload:{names[item]}" for item in holders if item in names]
-    if step.manner == "sort":
-        return ["sort"] if len(step.goal) > 1 else []
-    # No robot moves furniture.
-    items = [item for item in step.items if item in names and not world.on_floor(item)]
-    if step.manner == "pick":
-        return [f"pick:{names[items[0]]}"] if len(items) == 1 else []
-    goal = next((item for item in step.goal if item in names), None)
-    if goal is not None and goal.group.height > 1:
-        goal = world.tops(step.goal)[-1]
-    if step.manner == "stack" and goal is None and len(items) == 2:
-        return [f"stack:{names[items[0]]}:{names[items[1]]}"]
-    if step.manner == "stack" and step.link is None and _ELSEWHERE.search(step.said) is None:
-        return _tower(items, names)
-    if goal is None or step.link is None:
-        return []
-    support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
-    fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
-    nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
-    over = step.link.said == "over" and not all(world.is_a(item, lexicon.THIN) for item in items)
-    across = step.link.says == "across" and world.likely.hollow(world.noun(goal))
-    several = step.link.manner == "place" and goal.group.height == 1 and len(items) == 1 < len(step.goal)
-    if not fits or nearer or over or across or several or step.link.kind == "hangs_from":
-        # A spoon across a bowl and a plank on two blocks are nowhere asked for; a bowl over a ball is around it.
-        return []
-    noun = world.noun(goal)
-    if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):
-        # "To the left side of the lamp" is beside it.
-        return []
-    stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
-    kind = "stack" if stacked else "place"
-    moved = [item for item in items if item is not goal and world.support(item) is not goal]
-    if step.manner == "stack":
-        # "Stack the three cubes on the tray": the second on the first.
-        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + _tower(moved, names)
-    alike = [item for item in step.goal if item in names and item.group is goal.group]
-    # "Put the two cups on the two plates": one on each.
-    goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
-    pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
-    return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
-
-
-def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:
-    """The tasks by which each of `items` comes to stand on the one before it."""
-    return [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(items)]
