@@ -193,7 +193,7 @@ def _holds(world: World, each: Arranged) -> bool:
     if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
         return False
     over = each.kind != "under" or world.is_a(each.of[0], lexicon.OVERHANGING)
-    if not over and not covers.stands_over(world, each.of[0], each.items[0]):
+    if not over and not covers.stands_over(world, each.of[0], each.items):
         return False
     within = len(supports) == 1 and "in" in kinds
     return not within and not any(everything & set(world.ancestors(item)) for item in everything)

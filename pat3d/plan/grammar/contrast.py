@@ -43,6 +43,31 @@ class Contrast(Pronouns):
         renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
         return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
 
+    def _any_of(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """One of several that a sentence before has named, where "a box" is what something is in, or is to be moved."""
+        plain = phrase.modifiers == NO_MODIFIERS == phrase.superlative and phrase.words.lower().startswith(
+            ("a ", "an ")
+        )
+        if (
+            not plain
+            or phrase.plural
+            or phrase.definite
+            or phrase.count not in (None, 1)
+            or phrase.cycle
+            or phrase.part
+        ):
+            return None
+        named = self._world.groups[: self._world.settled]
+        likes = [group for group in named if group.noun == phrase.noun and group.said == phrase.said]
+        likes = [group for group in likes if len(group.items) > 1 and not group.replaced and group.height == 1]
+        child = any(at in one for one, _ in self.related)
+        parent = any(at in other for _, other in self.related)
+        if likes and (self.asked or (parent and not child)):
+            return likes[-1].items[:1]
+        if likes:
+            self._world.one_more.append((phrase.words, likes[-1]))
+        return None
+
     def _elsewhere(self, at: int, group: Group) -> bool:
         """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""
         told, item = self._place_of(at), group.items[0]

@@ -49,6 +49,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
         if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
             world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
+    _note_one_more(world)
     world.groups = [group for group in world.groups if not group.replaced]
     there = set(world.items())
     world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
@@ -82,6 +83,15 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         postures=tuple(postures),
     )
     return plan, names
+
+
+def _note_one_more(world: World) -> None:
+    """Say of "a cup" on a table where two cups are that it is a third one."""
+    for words, named in world.one_more:
+        lowest = [[item, *world.ancestors(item)][-1] for item in named.items if item in world.supports]
+        new = [item for group in world.groups if group.words == words for item in group.items]
+        if any(item not in world.supports or [item, *world.ancestors(item)][-1] in lowest for item in new):
+            world.note(f'"{words}" is read as one more than the {len(named.items)} named before.')
 
 
 def _open_boxes(world: World, nouns: Nouns) -> None:
@@ -146,7 +156,9 @@ def _side_alone(world: World, told: Sided) -> None:
     kind = _KINDS[_ORDER[told.side]]
     implied = [item for item in told.implied if item not in told.items]
     if implied:
-        world.beside(told.items, kind, implied[:1])
+        firsts = {item.group: item for item in reversed(implied)}
+        for first in reversed(firsts.values()):
+            world.beside(told.items, kind, [first])
     elif all(edge.parent not in told.items and edge.child not in told.items for edge in world.laterals):
         if told.side in ("one", "other"):
             world.note(f'not arranged: "{told.items[0].group.words}" at one end or side')

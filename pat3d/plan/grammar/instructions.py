@@ -14,7 +14,6 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
 from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
@@ -49,8 +48,6 @@ _VERBS: dict[str, Manner] = {
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
 """Verbs that are never nouns or adjectives, so that a bare noun may follow."""
-_CHOOSING = frozenset({"hold", "choose", "select", "identify", "find"})
-"""Verbs of what is picked that take it nowhere."""
 _FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
@@ -150,23 +147,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
             aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
             body = [*body[:with_it], *body[after:]]
-        if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
-            # "Take the cup to the table"
-            manner = "move"
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
-
-
-def _leads_to_goal(tokens: Sequence[Token]) -> bool:
-    """Whether `tokens` say where something is taken: "to the table", "into the box"."""
-    at = 1
-    while at < len(tokens):
-        size = link_at(tokens, at)
-        link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
-        if link is not None and link.manner == "goal" and link.kind in SUPPORT_KINDS:
-            return True
-        at += size or 1
-    return False
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:

@@ -65,6 +65,7 @@ class Interpreter(Placing):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._said.asked = self._clause.manner is not None
         self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
         self._said.related = [
             (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
@@ -238,6 +239,7 @@ class Interpreter(Placing):
         made_up = (
             self._clause.manner in ("make", "stack")
             and not taken
+            and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None
                 and phrase.determined
@@ -440,8 +442,8 @@ class Interpreter(Placing):
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
         phrase = self._chunks[head].named
-        told = phrase.one_of or bool(phrase.superlative != NO_MODIFIERS)
-        return list(children[0].group.items) if told and len(children) == 1 else children
+        told = phrase.some or bool(phrase.superlative != NO_MODIFIERS)
+        return list(children[0].group.items) if told and len(children) == (phrase.some or 1) else children
 
     def _means(self, fact: tuple) -> bool:
         """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""

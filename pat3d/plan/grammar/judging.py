@@ -145,7 +145,7 @@ class Judging:
         if not word or any(phrase.kind != "object" or phrase.cycle for phrase in named):
             return False
         several = len(named) > 1 or named[0].plural or (named[0].count or 1) > 1
-        stacked = named[0].height is not None or named[0].one_of
+        stacked = named[0].height is not None or named[0].some == 1
         return not stacked and ((word[0] in _OF_ONE and several) or (word[0] in _OF_SEVERAL and not several))
 
     def _kind_named(self, start: int, end: int) -> int | None:

@@ -133,6 +133,9 @@ class Placing:
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
             self._relating.relate(children, link, landmark)
             return
+        if not begun and set(children) < set(world.together):
+            # "A cup and a bowl are on the table. The cup is on the left."
+            implied = [item for item in world.together if item not in children]
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
 
     def _in_between(self, at: int, children: list[Item], owners: list[Item]) -> None:

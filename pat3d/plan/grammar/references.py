@@ -100,6 +100,8 @@ class References(Contrast):
             return (self._rest_of(phrase) or None) if phrase.other and phrase.definite else None
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
+        if (one := self._any_of(at, phrase)) is not None:
+            return one
         again = self._earlier if bare else []
         again = again or [
             group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
@@ -122,7 +124,8 @@ class References(Contrast):
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                if group in besides and (same is same_head or phrase.modifiers.colours != own):
+                coloured = {item.colours for item in group.items} if _told_apart(group) else {own}
+                if group in besides and (same is same_head or phrase.modifiers.colours not in coloured):
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
@@ -148,7 +151,7 @@ class References(Contrast):
         """The other cups of which one or some were told apart: "one of three cups ..., the other two cups"."""
         for group in (group for group in reversed(self._world.groups) if same_noun(group, phrase)):
             untold = [item for item in self._world.telling if item in group.items]
-            if group.phrase.one_of:
+            if group.phrase.some == 1:
                 untold = group.items[1:]
             elif group.phrase.superlative != NO_MODIFIERS:
                 untold = [item for item in group.items if not (item.place or item.told.size_word)]
@@ -290,7 +293,7 @@ class References(Contrast):
             return list(subject[0].group.items) if len(subject) == 1 else subject
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
-            groups.sort(key=lambda group: not group.phrase.one_of)
+            groups.sort(key=lambda group: not group.phrase.some)
         if rest and world.telling:
             told = world.telling[: phrase.count or len(world.telling)]
             world.telling = world.telling[len(told) :]
@@ -344,7 +347,8 @@ class References(Contrast):
             # "Four mugs, one of which holds a pen and another a spoon"
             return [self._world.telling.pop(0)]
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-        groups = [named[0][0].group] if named else self._world.groups[-1:]
+        before = [item.group for item in self._world.subject[:1]] or self._world.groups[-1:]
+        groups = [named[0][0].group] if named else before
         if (alike := self._carrier_like(at)) is not None:
             groups = [alike]
         counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
@@ -477,7 +481,9 @@ class References(Contrast):
             return self._at(items, SAME.get(where, where), replace(phrase, modifiers=told))
         if told.size_word:
             tell(items[0], told)
-        return items[:1] if told.size_word or phrase.one_of else list(items)
+        if phrase.some > 1 and phrase.some < len(items):
+            self._world.telling = items[phrase.some :]
+        return items[: phrase.some or 1] if told.size_word or phrase.some else list(items)
 
     def not_understood(self, heads: Sequence[int], where: str = "") -> None:
         """Name those of `heads` that speak of nothing, and `where` they are said to be."""
