@@ -20,7 +20,6 @@ from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.wielded import wielded
 from pat3d.plan.grammar.world import Manner
-from pat3d.scene.relations import SUPPORT_KINDS
 
 _VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",
