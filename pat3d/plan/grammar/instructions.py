@@ -140,11 +140,11 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         begun = max(start, 0)
         said = text[tokens[begun].start : max(token.end for token in tokens[begun:end])].lstrip(", ")
         said = said.removeprefix("and ").removeprefix("then ")
-        with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns)
+        with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns) if manner != "other" else (0, 0)
         if after:
             # "Push the ball with the bat": the bat lies by itself.
             made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
-            aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
+            aside = (*aside, text[body[with_it].start : body[after - 1].end])
             body = [*body[:with_it], *body[after:]]
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
     return made
