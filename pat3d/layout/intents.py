@@ -78,7 +78,11 @@ class Intents:
         # Who faces what depends on the circles and rows that they stand in.
         audiences = [row for one in arrangements if (row := self._audience(one, arrangements)) is not None]
         for one in sorted([*arrangements, *audiences], key=lambda one: one.kind == "facing"):
+            known = len(self.notes)
             intent = self._placed(one, kinds)
+            if one in audiences:
+                # Nobody has asked for that row.
+                del self.notes[known:]
             if intent is not None:
                 self.by_surface.setdefault(intent.support, []).append(intent)
                 self._turn(intent)
