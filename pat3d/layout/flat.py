@@ -9,7 +9,6 @@ import numpy as np
 
 from pat3d.layout.bodies import Array
 
-
 _MOUSE, _COMPUTERS = "computer mouse", frozenset({"laptop", "keyboard", "computer"})
 """Most people's mouse is right of what they type on."""
 WRONG_HAND = 0.5
