@@ -229,6 +229,10 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if words[end : end + 1] == ["("] and words[end + 2 : end + 3] == [")"]:
+        # "plates (4)"
+        said = words[end + 1]
+        number = int(said) if said.isdecimal() and len(said) < 4 else NUMBERS.get(said, number)
     if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
         # "the left one pencils": the pencils of the left one.
         number = None

@@ -16,7 +16,6 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
 from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
@@ -51,8 +50,6 @@ _VERBS: dict[str, Manner] = {
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
 """Verbs that are never nouns or adjectives, so that a bare noun may follow."""
-_CHOOSING = frozenset({"hold", "choose", "select", "identify", "find"})
-"""Verbs of what is picked that take it nowhere."""
 _FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
@@ -98,6 +95,8 @@ class Clause:
     """Whether the sentence begins with it."""
     aside: tuple[str, ...] = ()
     """What was left out of the sentence before it was read, piece by piece."""
+    then: bool = False
+    """Whether the sentence goes on with what is to be done then, so that this is a deed and no scene."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -156,23 +155,12 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
             aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
             body = [*body[:with_it], *body[after:]]
-        if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
-            # "Take the cup to the table"
-            manner = "move"
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
+        later = next((at for begin, at in starts if begin == end), 0)
+        then = bool(later) and "then" in {token.text for token in tokens[end:later]}
+        then = then and tokens[later + 1].text in lexicon.DEFINITE | {"it", "them"}
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside,
+                           then=then))  # fmt: skip
     return made
-
-
-def _leads_to_goal(tokens: Sequence[Token]) -> bool:
-    """Whether `tokens` say where something is taken: "to the table", "into the box"."""
-    at = 1
-    while at < len(tokens):
-        size = link_at(tokens, at)
-        link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
-        if link is not None and link.manner == "goal" and link.kind in SUPPORT_KINDS:
-            return True
-        at += size or 1
-    return False
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:
@@ -353,14 +341,25 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
             notes.append(f'not modelled: "{step.said}": no task does that.')
         specs += made
     if not specs:
-        # "Grasp the block, then turn it": of the two, the first is a task.
-        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
+        # "Grasp the block, then turn it": of the two, the first is a task; not of "..., then put it beside the cup".
+        begun_only = [
+            step for step in steps if step.manner == "pick" and step not in wanted and not _is_put(step, steps)
+        ]
+        picks = (_specs(step, world, names) for step in begun_only)
         specs = next((made for made in picks if made), [])
     if len(specs) > 1:
         listed = ", ".join(specs)
         notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
         return None, notes
     return (specs[0] if specs else None), notes
+
+
+def _is_put(picked: Step, steps: Sequence[Step]) -> bool:
+    """Whether one of `steps` behind `picked` says where its things are to go."""
+    later = steps[list(steps).index(picked) + 1 :]
+    verbs = [next((_base(word) for word in step.said.lower().split() if _base(word) in _VERBS), "")
+             for step in later if set(step.items) & set(picked.items)]  # fmt: skip
+    return any(_VERBS.get(verb, "other") != "other" for verb in verbs)
 
 
 def _unsaid(step: Step, world: World) -> list[str]:
@@ -380,7 +379,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if step.manner == "unload":
         edges = [(item, world.supports.get(item)) for item in step.items[:1]]
         # "unload the cups from the crate" is about the crate.
-        holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
+        taken = bool({"from", "off", "out"} & set(step.said.lower().split()))
+        holders = [edge.parent if edge and (taken or edge.kind == "in") else item for item, edge in edges]
         likely = world.likely
         holders = [item for item in holders if likely.hollow(world.noun(item)) or likely.closet(world.noun(item))]
         return [f"unload:{names[item]}" for item in holders if item in names]
@@ -402,7 +402,11 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
     fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
     nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
-    if not fits or nearer or step.link.kind == "hangs_from":
+    over = step.link.said == "over" and not all(world.is_a(item, lexicon.THIN) for item in items)
+    across = step.link.says == "across" and world.likely.hollow(world.noun(goal))
+    several = step.link.manner == "place" and goal.group.height == 1 and len(items) == 1 < len(step.goal)
+    if not fits or nearer or over or across or several or step.link.kind == "hangs_from":
+        # A spoon across a bowl and a plank on two blocks are nowhere asked for; a bowl over a ball is around it.
         return []
     noun = world.noun(goal)
     if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):
