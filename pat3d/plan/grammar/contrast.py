@@ -144,6 +144,18 @@ class Contrast(Pronouns):
         joined = at > 3 and self._chunks[at - 3].kind == "joint" and "and" in self._chunks[at - 3].text
         return [items[0] for items in pair] if joined and [len(items) for items in pair] == [1, 1] else []
 
+    def _enumerated(self, at: int) -> list[Item]:
+        """The single things that the sentence before chunk `at`, or the one before it, begins with in a list."""
+        heads: list[int] = []
+        for n, piece in enumerate(self._chunks[:at]):
+            if piece.kind not in ("noun", "joint", "there"):
+                break
+            heads += [n] * (piece.kind == "noun")
+        named = [self.known.get(head, []) for head in heads]
+        if len(named) > 1 and all(len(items) == 1 for items in named):
+            return [items[0] for items in named]
+        return list(self._world.together) if len(named) < 2 else []
+
     def _before(self, at: int) -> list[Item]:
         """What the clause that chunk `at` belongs to begins with."""
         plural = self._plural_before(at)
