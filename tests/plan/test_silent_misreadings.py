@@ -18,6 +18,8 @@ PLANNER = GrammarPlanner()
          {"spoon left_of plate", "fork right_of plate", "mug in_front_of fork"}),
         ("a backpack with a doll on top", {"doll on backpack"}),
         ("Put a single apple and pear from the basket onto the plate.", {"apple in basket", "pear in basket"}),
+        ("The ball is out of the basket.", {"ball next_to basket"}),
+        ("Move the jug from the foot of the lamp to the tray.", {"jug next_to lamp"}),
         ("A cup is on the table and a plate is near the lamp.", {"cup on table", "plate next_to lamp"}),
     ],
 )  # fmt: skip

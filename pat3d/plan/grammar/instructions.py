@@ -36,7 +36,7 @@ VERBS: dict[str, Manner] = {
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
-                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch",
+                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "cross", "reach", "swap", "scoop", "touch",
                      "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange",
                      "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble", "rinse", "scrub", "dry", "discard", "secure", "squeeze",

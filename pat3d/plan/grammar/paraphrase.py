@@ -291,6 +291,10 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
+        if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
+            # "The dog is out of the box": not in it.
+            kept.append(replace(token, text="outside"))
+            continue
         if token.text in _MODALS and (follower == "be" or (follower in _STANDING and before not in (".", ","))):
             continue
         if token.text == "'s" and before not in plain and not nouns.match([before]):
