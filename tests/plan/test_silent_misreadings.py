@@ -44,6 +44,11 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
         ("Stack the three bowls, the green one at the bottom, the red one on top.",
          'not modelled: "Stack the three bowls, the green one at the bottom, the red one on top": no task does that.'),
+        ("A lamp is over a table.", 'not arranged: "A lamp" over "a table"; it is placed on it'),
+        ("The tower with three bricks has a red brick at the top.",
+         'counted otherwise: "three bricks"; 4 are stacked'),
+        ("A caramel-colored jug.", 'not modelled: "caramel-colored" of "A caramel-colored jug"'),
+        ("A flock of sheep.", '"A flock of sheep": 3 assumed.'),
         ("A coffee cup with latte art.", '"latte art" is made as a "sculpture"'),
     ],
 )  # fmt: skip
