@@ -101,6 +101,7 @@ def test_what_is_said_is_held(sentence: str, wanted: set[str]):
         ("A book leaning against the wall.", ""),
         ("Two books leaning against each other.", "leaning against each other"),
         ("Two books lean on a box.", "leaning against"),
+        ("A table stands next to a lamp. A can and a bowl on the table are facing the lamp.", "facing"),
         ("A chair hanging from a tree, with a ball under it.", "under"),
         ("A book under a lamp.", ""),
         ("Two balls in a circle.", "in a circle"),

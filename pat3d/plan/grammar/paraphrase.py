@@ -119,10 +119,27 @@ def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
             size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
             made[len(made) - size : len(made) - size] = inside
             at = end + 1
+        elif closes and len(inside) == 1 and (inside[0].text.isdecimal() or inside[0].text in lexicon.NUMBERS):
+            made = _numbered(made, inside[0], nouns)
+            at = end + 1
         else:
             made.append(token)
             at += 1
     return made
+
+
+def _numbered(tokens: Sequence[Token], number: Token, nouns: Nouns) -> list[Token]:
+    """`tokens`, which end in "white plates", with `number` before that; as they are where a number stands there."""
+    words = [token.text for token in tokens]
+    first = len(words) - next((n for n in (3, 2, 1) if n <= len(words) and nouns.match(words[-n:])), 0)
+    if first == len(words):
+        return [*tokens, number]
+    while first and (is_modifier(words[first - 1]) or is_colour_word(words[first - 1])):
+        first -= 1
+    known = first and (words[first - 1] in lexicon.NUMBERS or words[first - 1].isdecimal())
+    lead = first - (first > 0 and words[first - 1] in ("a", "an", "the", "some"))
+    before = replace(number, start=tokens[lead].start, end=tokens[lead].start)
+    return list(tokens) if known else [*tokens[:lead], before, *tokens[first:]]
 
 
 def _said(text: str, token: Token) -> str:

@@ -9,6 +9,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
 from pat3d.plan.grammar.world import Group, Item, World
@@ -155,7 +156,8 @@ class Pronouns:
             # A stack is "it".
             if plural != (len(self._world.bases(items)) > 1):
                 cost += 0.7 if plural else 0.4
-            if not plural and other and items[0].group.noun == other[0].group.noun:
+            told = bool(other) and other[0].group.modifiers != NO_MODIFIERS
+            if not plural and other and not told and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box.
                 cost += 0.6
             if link is not None and other:

@@ -31,6 +31,7 @@ from pat3d.scene.relations import SUPPORT_KINDS
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
+_COUNTED = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1}
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
@@ -124,8 +125,11 @@ class References(Contrast):
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                coloured = {item.colours for item in group.items} if _told_apart(group) else {own}
+                coloured = {own, *(item.colours for item in group.items if item.colours)}
                 if group in besides and (same is same_head or phrase.modifiers.colours not in coloured):
+                    continue
+                if group in besides and group.noun == phrase.noun and group.said != phrase.said:
+                    # "A couch faces the sofa": two.
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
@@ -271,8 +275,16 @@ class References(Contrast):
             told = self._earlier or [group for group in world.groups if group.items]
             # "A mug and a jar are on a shelf": of the two, not of what they are on.
             below = {below.group for group in told for item in group.items for below in world.ancestors(item)}
-            told = ([group for group in told if group not in below] or told)[-2:]
+            told = [group for group in told if group not in below] or told
+            told = told[-2:] if self._earlier else told[:2]
             return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
+        listed = self._enumerated(at) if where in _COUNTED and phrase.words.lower() == f"the {where}" else []
+        if listed and len({item.group for item in listed}) == len(listed):
+            # "A cup and a bowl: the first is red, the second holds an egg."
+            found = listed[_COUNTED[where] : _COUNTED[where] + 1] if where != "last" else listed[-1:]
+            for item in found:
+                tell(item, replace(words, adjectives=()))
+            return found
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
@@ -425,6 +437,10 @@ class References(Contrast):
         known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
+            own = [item for item in whole.items if words.colours[0] in colours_of(item)]
+            if own and not phrase.definite and whole.exact and len(whole.items) > 1:
+                # "Four cubes: two red, a blue and a white one on a red one": of those that were counted.
+                return own[:count]
             several = phrase.plural or count > 1 or phrase.words.endswith("ones")
             more = replace(whole.phrase, words=phrase.words, count=phrase.count,
                            plural=several, modifiers=words, definite=phrase.definite)  # fmt: skip
