@@ -131,3 +131,16 @@ def test_some_of_what_something_has_stands_on_the_floor(prompt: str, carried: in
 def test_in_front_of_what_carries_the_rest_is_said_to_be_read_so():
     notes = PLANNER.plan("A crate with six lemons, two of them in front.").notes
     assert '"in front" is read as said of "A crate".' in notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("A tray on a desk with a plum on it.", {"tray on desk", "plum on tray"}),
+        ("There is a chessboard on the desk with a king on it.", {"chessboard on desk", "chess king on chessboard"}),
+        ("A lamp on a desk with a book on it.", {"lamp on desk", "book on desk"}),
+        ("A mug next to a plate with a bun on it.", {"mug next_to plate", "bun on plate"}),
+    ],
+)
+def test_what_is_on_it_is_on_the_dish_that_is_told_of(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations
