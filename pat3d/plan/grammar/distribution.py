@@ -99,3 +99,20 @@ def _groups(items: Sequence[Item]) -> list[Group]:
 def _single(group: Group, *, filling: bool) -> bool:
     """Whether one thing is named: "a rose", and "filled with roses" where those are one bouquet."""
     return len(group.items) == 1 and not group.counted and (group.phrase.determined or filling)
+
+
+def as_many(world: World, link: Link, parents: list[Item], children: Sequence[Item]) -> list[Item]:
+    """`parents` of which the number is not said: as many as the `children`, each with its own, or no more.
+
+    "Two cups on saucers" are on two saucers, and "two vases on shelves" on no more than two shelves.
+    """
+    group, wanted = parents[0].group, len(world.bases(children))
+    own = world.is_a(parents[0], lexicon.BENEATH_CUPS, ("placemat",))
+    fresh = group.phrase.plural and not group.counted and not group.phrase.definite and not group.modifiers.palette
+    fresh = fresh and group.height == 1 and all(world.support(item) is None for item in group.items)
+    if link.kind not in SUPPORT_KINDS or not fresh or len(parents) != len(group.items) or wanted < 2:
+        return parents
+    if wanted < len(parents) or (own and wanted > len(parents)):
+        recount(world, group, wanted)
+        return list(group.items)
+    return parents
