@@ -86,7 +86,9 @@ def fronted(it: Compared, claim: Claim) -> bool:
     """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
     floor = it.furniture | {"rug", "mat", "carpet"}
     return any(
-        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        one.of is not None
+        and one.of.end == claim.at
+        and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
         # "On the rug beside the bed stands a lamp": the rug is beside the bed too.
         and not (claim.of is not None and {one.of.noun, claim.of.noun} <= floor)
         for one in it.said.claims
