@@ -40,6 +40,7 @@ PLANNER = GrammarPlanner()
         ("Shove the crate across the table.", {"crate on table"}),
         ("Take a rod and push a crate with the rod.", set()),
         ("Slice the cheese with the knife.", set()),
+        ("Push the crate into the bin with the stick.", set()),
         ("Pull the chair away from the desk.", {"chair next_to desk"}),
         ("Push the crate with two balls in it.", {"ball 1 in crate", "ball 2 in crate"}),
         ("A monitor with a picture of a boat on the screen stands on a desk.", {"monitor on desk"}),

@@ -153,7 +153,12 @@ class _Auditor(Compared):
         """What the plan lacks or has otherwise, in the order of the prompt."""
         made: list[tuple[int, str]] = []
         for mention in self.said.mentions:
-            if find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects):
+            doubled = self.said.words[mention.start - 1] == mention.text and not mention.plural
+            hue = find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects)
+            if hue and not (doubled and all(obj.noun != mention.noun for obj in self.plan.objects)):
+                continue
+            if hue:
+                made.append((mention.start, f'not in the scene: "{mention.text}"'))
                 continue
             place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
             if self._listed(mention):

@@ -146,6 +146,8 @@ class Compared:
         kinds = KINDS.get(claim.place, frozenset())
         if claim.place == "beside" and PARTS.keys() & {*self.said.words[claim.at : claim.end]}:
             return kinds | {"at_edge", "in_corner", "on"}
+        if "middle" in self.said.words[claim.at : claim.end]:
+            return kinds | {"between", "in_middle"}
         if claim.place == "between" and self.led(claim, SHARED):
             return kinds | {"on", "in"}
         if claim.place == "from" and self.led(claim, FALLEN) and not self.tasks.strip():

@@ -215,8 +215,14 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
 
 def _hue(words: Sequence[str], at: int) -> bool:
     """Whether the fruit at word `at` is the first of some colours: "orange, yellow and green blocks"."""
-    joined = words[at + 1 : at + 2] in (["and"], [","]) and at + 2 < len(words)
-    return joined and find_colour(words[at]) is not None and find_colour(words[at + 2]) is not None
+    last = at
+    while find_colour(words[last]):
+        behind = next((n for n in (last + 2, last + 3) if n < len(words) and find_colour(words[n])
+                       and {*words[last + 1 : n]} <= {",", "and"}), 0)  # fmt: skip
+        if not behind:
+            break
+        last = behind
+    return last > at and words[last + 1 : last + 2] != [] and words[last + 1][0].isalnum() and words[last + 1] != "and"
 
 
 def _unsure(words: Sequence[str], at: int) -> bool:

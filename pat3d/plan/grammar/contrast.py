@@ -62,11 +62,14 @@ class Contrast(Pronouns):
         likes = [group for group in likes if len(group.items) > 1 and not group.replaced and group.height == 1]
         child = any(at in one for one, _ in self.related)
         parent = any(at in other for _, other in self.related)
-        if likes and (self.asked or (parent and not child)):
-            return likes[-1].items[:1]
-        if likes:
-            self._world.one_more.append((phrase.words, likes[-1]))
-        return None
+        if not likes or not (self.asked or (parent and not child)):
+            return None
+        among = {head for one, other in self.related if at in other for head in one}
+        if any(self._chunks[head].named.each for head in among):
+            # "Each ball is in a box": every one in its own.
+            several = {len(self.known.get(head, ())) for head in among}
+            return list(likes[-1].items) if several == {len(likes[-1].items)} else None
+        return likes[-1].items[:1]
 
     def _elsewhere(self, at: int, group: Group) -> bool:
         """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""

@@ -73,7 +73,7 @@ def _kind_at(words: Sequence[str], end: int, nouns: Nouns) -> tuple[int, bool]:
     for size in (3, 2, 1):
         said = words[end - size : end] if size <= end else []
         ends = [" ".join([*said[:-1], one]) for one in singulars(said[-1])] if said else []
-        if any(one in lexicon.GENERICS for one in ends):
+        if any(one in lexicon.GENERICS for one in ends) or (size == 1 and said and said[0] in lexicon.MASS_GENERICS):
             return end - size, True
         found = nouns.match(said) if said else None
         if found is not None and found.plural:

@@ -199,7 +199,8 @@ def _sorted(tokens: list[Token]) -> list[Token]:
     if words[0] != "sort" or words[1] not in lexicon.DEFINITE or not colon or "from" in words[:colon]:
         return tokens
     end = next(n for n in range(2, colon + 1) if words[n] in ("by", ":", "into", "according", "in"))
-    name, parts = tokens[2:end], [[]]  # type: tuple[list[Token], list[list[Token]]]
+    name = tokens[2:end]
+    parts: list[list[Token]] = [[]]
     for token in tokens[colon + 1 : -1]:
         if token.text in (",", "and", ";"):
             parts.append([])

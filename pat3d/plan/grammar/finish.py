@@ -49,7 +49,6 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
         if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
             world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
-    _note_one_more(world)
     world.groups = [group for group in world.groups if not group.replaced]
     there = set(world.items())
     world.supports = {c: e for c, e in world.supports.items() if {c, e.parent} <= there}
@@ -83,15 +82,6 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         postures=tuple(postures),
     )
     return plan, names
-
-
-def _note_one_more(world: World) -> None:
-    """Say of "a cup" on a table where two cups are that it is a third one."""
-    for words, named in world.one_more:
-        lowest = [[item, *world.ancestors(item)][-1] for item in named.items if item in world.supports]
-        new = [item for group in world.groups if group.words == words for item in group.items]
-        if any(item not in world.supports or [item, *world.ancestors(item)][-1] in lowest for item in new):
-            world.note(f'"{words}" is read as one more than the {len(named.items)} named before.')
 
 
 def _open_boxes(world: World, nouns: Nouns) -> None:

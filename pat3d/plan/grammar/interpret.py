@@ -239,6 +239,7 @@ class Interpreter(Placing):
         made_up = (
             self._clause.manner in ("make", "stack")
             and not taken
+            and not self._clause.then
             and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None

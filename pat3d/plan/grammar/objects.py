@@ -295,7 +295,7 @@ def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
         group.items += [Item(group=group) for _ in range(len(group.items) * (factor - 1))]
         group.multiplied = True
         share_colours(group)
-        carried = [edge for edge in world.supports.values() if edge.parent in before]
+        carried = [edge for edge in world.supports.values() if edge.parent in before and len(before) == 1]
         for own in dict.fromkeys(edge.child.group for edge in carried if not edge.child.group.phrase.definite):
             # "On each side of a bed a nightstand with a lamp": a lamp on each.
             edges = [edge for edge in carried if edge.child.group is own]

@@ -36,7 +36,7 @@ from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
-from pat3d.plan.grammar.surface_places import on_the_surface
+from pat3d.plan.grammar.surface_places import across_the_top, on_the_surface
 from pat3d.plan.grammar.towers import from_below, of_things
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -73,7 +73,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))

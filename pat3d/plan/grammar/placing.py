@@ -238,7 +238,7 @@ class Placing:
     def _begun(self, at: int, heads: Sequence[int]) -> list[Item]:
         """What the clause begins with, besides what the place is said of."""
         start = max((start for start in self._said.clauses if start <= at), default=0)
-        first = next((head for head in self._said.clauses[start] if head not in heads), None)
+        first = next((head for head in self._said.clauses.get(start, ()) if head not in heads), None)
         if first is None or first > min(heads, default=at):
             return []
         return self._said.ref(first)

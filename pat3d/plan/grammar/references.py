@@ -125,8 +125,11 @@ class References(Contrast):
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                coloured = {item.colours for item in group.items} if _told_apart(group) else {own}
+                coloured = {own, *(item.colours for item in group.items if item.colours)}
                 if group in besides and (same is same_head or phrase.modifiers.colours not in coloured):
+                    continue
+                if group in besides and group.noun == phrase.noun and group.said != phrase.said:
+                    # "A couch faces the sofa": two.
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue

@@ -161,8 +161,6 @@ class World:
         """What the sentence before opened with: the sofa of "behind the sofa there is"."""
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What "to the left of" was last said of, and whether it was "on the left side of"."""
-        self.one_more: list[tuple[str, Group]] = []
-        """Words that name one more of a kind of which a sentence before has named several, and those."""
         self.settled = 0
         """Groups that the sentences before this one have named."""
         self.telling: list[Item] = []
