@@ -170,8 +170,9 @@ def test_all_but_one_of_an_unknown_number_is_refused(planner, prompt):
     [
         ("A mug is on the tray; a second one, which is white, is on the shelf.",
          ["mug", "tray", "white mug", "shelf"], {"mug on tray", "white mug on shelf"}),
-        ("Two white pens are in the cup; a third one, which is black, lies next to it.",
-         ["white pen 1", "white pen 2", "cup", "black pen"], {"white pen 1 in cup", "white pen 2 in cup"}),
+        ("Two white pens are in the cup; a third one, which is black, lies on the desk.",
+         ["white pen 1", "white pen 2", "cup", "black pen", "desk"],
+         {"white pen 1 in cup", "white pen 2 in cup", "black pen on desk"}),
         ("There's one vase on the table and another one, a white one, on the shelf.",
          ["vase", "table", "white vase", "shelf"], {"vase on table", "white vase on shelf"}),
         ("Four balls: two white, one black, and a red one on top of a white one.",
