@@ -247,6 +247,10 @@ class Grammar(Goals):
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
             cost += 1.0
+        ones = [self._phrase(head).words.lower().endswith(" one") for head in named.heads]
+        if len(ones) > 1 and ones[-1] and not any(ones[:-1]) and "finite" not in modifier.flags:
+            # "two white, one black, and a red one on top of a white one"
+            cost += 0.8 * all(self._phrase(head).kind in HEADLESS for head in named.heads)
         if any(self._said_of(named, head) for head in modifier.heads):
             cost += 1.2
         said = ("rel", at, named.heads, modifier.heads)
