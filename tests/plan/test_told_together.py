@@ -38,7 +38,9 @@ def _tasks(plan: ScenePlan) -> list[str]:
         ("Put the jar in the box, and also the mug.", ["place:jar:box", "place:mug:box"]),
         ("Put the three mugs on the three plates.",
          ["place:mug 1:plate 1", "place:mug 2:plate 2", "place:mug 3:plate 3"]),
+        ("Put the jar in the box and the mug as well.", ["place:jar:box", "place:mug:box"]),
         ("Take the jar to the desk.", ["place:jar:desk"]),
+        ("Take the jar next to the clock.", ["pick:jar"]),
         ("A jar and a mug are on the desk. Put everything in the box.", ["place:jar:box", "place:mug:box"]),
         ("A jar is on the desk. A mug is on the shelf. Move everything from the desk to the box.", ["place:jar:box"]),
         ("Put the mug on the lower rack of the dishwasher.", ["place:mug:dishwasher"]),
@@ -59,6 +61,10 @@ def test_everything_that_is_to_be_moved_has_its_task(prompt: str, tasks: list[st
     [
         ("A jar and a mug are on the desk. A ruler is next to them.",
          {"jar on desk", "mug on desk", "ruler on desk", "ruler next_to jar", "ruler next_to mug"}),
+        ("A crate and a basket are on a bench. Each contains a lemon.",
+         {"crate on bench", "basket on bench", "lemon 1 in crate", "lemon 2 in basket"}),
+        ("A red crate and a blue crate are on a bench. The red crate is on the left.",
+         {"red crate on bench", "blue crate on bench", "red crate left_of blue crate"}),
         ("There is a jar. There is a mug. They stand on a desk.", {"jar on desk", "mug on desk"}),
         ("A jar and a can are on a shelf. They are next to each other.",
          {"jar on shelf", "can on shelf", "can next_to jar"}),
@@ -101,6 +107,7 @@ def test_plain_places_are_read_without_a_note(prompt: str, relations: set[str]):
     ("prompt", "described"),
     [
         ("A jar and a mug are on the desk. They are green.", ["green jar", "green mug", "desk"]),
+        ("A jar and a mug are on the desk. They are both green.", ["green jar", "green mug", "desk"]),
         ("A jar and a mug are on the desk. Both are green.", ["green jar", "green mug", "desk"]),
         ("A desk has two chairs. They are green.", ["desk", "green chair 1", "green chair 2"]),
         ("A jar is on the desk. It is green.", ["green jar", "desk"]),

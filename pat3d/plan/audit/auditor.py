@@ -153,7 +153,12 @@ class _Auditor(Compared):
         """What the plan lacks or has otherwise, in the order of the prompt."""
         made: list[tuple[int, str]] = []
         for mention in self.said.mentions:
-            if find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects):
+            doubled = self.said.words[mention.start - 1] == mention.text and not mention.plural
+            hue = find_colour(mention.text) and any(self.has(obj, mention.text) for obj in self.plan.objects)
+            if hue and not (doubled and all(obj.noun != mention.noun for obj in self.plan.objects)):
+                continue
+            if hue:
+                made.append((mention.start, f'not in the scene: "{mention.text}"'))
                 continue
             place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
             if self._listed(mention):
@@ -251,7 +256,13 @@ class _Auditor(Compared):
                 or any(self.named(said) for said in (noun, *(mention.text for mention in mentions)))
             ):
                 continue
-            least = sum(mention.number or 1 for mention in mentions if mention.new)
+            texts = {text for mention in mentions for text in (mention.text, *singulars(mention.text))}
+            said = sum(obj.noun == noun and any(text in obj.phrase.lower() for text in texts)
+                       for obj in self.plan.objects)  # fmt: skip
+            counts |= {said} - {0}
+            least = sum(
+                mention.number or 1 for mention in mentions if mention.new and not self._one_of(mention, mentions)
+            )
             least = max(least, *(mention.number or 1 for mention in mentions))
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
@@ -278,6 +289,11 @@ class _Auditor(Compared):
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    @staticmethod
+    def _one_of(mention: Mention, mentions: Sequence[Mention]) -> bool:
+        """Whether "a cup" may be one of those that a sentence before has named: the plan says where it is not."""
+        return mention.number == 1 and any(other.plural and other.part < mention.part for other in mentions)
 
     def _listed(self, mention: Mention) -> bool:
         """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""

@@ -71,6 +71,10 @@ def _fronted(it: Compared, one: Claim, other: Claim) -> list[Mention]:
     at = other.end + (words[other.end : other.end + 1] == [","])
     if not begins or between not in ([], [","]) or not words[at : at + 1] or words[at] not in FINITE | {"there"}:
         return []
+    floor = it.furniture | {"rug", "mat", "carpet"}
+    if one.of is not None and other.of is not None and {one.of.noun, other.of.noun} <= floor:
+        # "On the rug beside the bed stands a lamp": the rug is beside the bed too.
+        return []
     while at < len(words) and words[at] in POSED | {"there", "'s"}:
         at += 1
     return [mention for mention in it.said.mentions if mention.first == at]

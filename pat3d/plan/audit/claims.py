@@ -17,6 +17,9 @@ def broken(it: Compared, claim: Claim) -> str | None:
     asked = claim.of is None and (it.tasks.strip() or it.undone)
     if it.excused(claim) or claim.said in it.undone or asked or any(name in it.tasks for name in of):
         return None
+    if (it.plan.task or "").startswith("sort") and claim.place in ("in", "on"):
+        # "Sort the blocks into the boxes"
+        return None
     if claim.place == "far" and it.tasks.strip() and any(b in of and kind in ("on", "in") for _, kind, b in it.edges):
         # "Take the cup away from the table": before the task it is there.
         return None
@@ -36,7 +39,12 @@ def broken(it: Compared, claim: Claim) -> str | None:
 def whose_of(it: Compared, claim: Claim) -> set[str]:
     """The objects that `claim` can only be said of: of several names, those of which there are several objects."""
     named = [[obj.name for obj in it.which(mention)] for mention in claim.whose]
-    several = [names for names in named if len(names) > 1] or named
+    several = [names for names in named if len(names) > 1]
+    below = {below for names in named for name in names for below in it.above(name)}
+    if claim.whole and not several and len(named) > 1:
+        # "A box and a can are on a desk. Each holds a nut.": the box and the can.
+        return {name for names in named for name in names} - below
+    several = several or named
     return set(several[-1] if claim.whole and several else (name for names in several for name in names))
 
 
@@ -79,8 +87,13 @@ def _opens(it: Compared, claim: Claim) -> bool:
 
 def fronted(it: Compared, claim: Claim) -> bool:
     """Whether `claim` is the second that a sentence opens with: "on the table next to the plate lies a fork"."""
+    floor = it.furniture | {"rug", "mat", "carpet"}
     return any(
-        one.of is not None and one.of.end == claim.at and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        one.of is not None
+        and one.of.end == claim.at
+        and (one.at == 0 or it.said.words[one.at - 1] in (".", ";"))
+        # "On the rug beside the bed stands a lamp": the rug is beside the bed too.
+        and not (claim.of is not None and {one.of.noun, claim.of.noun} <= floor)
         for one in it.said.claims
     )
 

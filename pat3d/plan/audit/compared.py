@@ -102,6 +102,7 @@ class Compared:
             obj for obj in self.plan.objects
             if obj.noun == mention.noun
             or any(re.search(rf"\b{re.escape(word)}\b", obj.phrase.lower()) for word in words)
+            or (mention.text in {one for word in obj.phrase.lower().split() for one in singulars(word)})
             or (not mention.new and heads & {obj.noun.split()[-1], obj.name.rstrip(" 0123456789").split()[-1]})
         ]  # fmt: skip
 
@@ -145,6 +146,8 @@ class Compared:
         kinds = KINDS.get(claim.place, frozenset())
         if claim.place == "beside" and PARTS.keys() & {*self.said.words[claim.at : claim.end]}:
             return kinds | {"at_edge", "in_corner", "on"}
+        if "middle" in self.said.words[claim.at : claim.end]:
+            return kinds | {"between", "in_middle"}
         if claim.place == "between" and self.led(claim, SHARED):
             return kinds | {"on", "in"}
         if claim.place == "from" and self.led(claim, FALLEN) and not self.tasks.strip():

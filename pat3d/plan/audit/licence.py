@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from pat3d.plan.audit.claims import fronted, whose_of
 from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.subjects import listed, said_of
+from pat3d.plan.audit.subjects import listed, row_of, said_of
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import DEEDS, FORMED, HEADLESS, NUMBERS, PRONOUNS, REACHING, REPEATS
 from pat3d.scene.relations import OPPOSITE, RELATION_WORDS, Relation
@@ -145,9 +145,17 @@ def _licensed(it: Compared, child: str, kind: str, parent: str) -> bool:
     ))  # fmt: skip
 
 
+def _in_one_list(it: Compared, one: str, other: str) -> bool:
+    """Whether both are named in one list: "a ball, a cube and a cone are stacked"."""
+    lists = ([{obj.name for obj in it.which(each)} for each in row_of(it, mention)] for mention in it.said.mentions)
+    return any(any(one in names for names in row) and any(other in names for names in row) for row in lists)
+
+
 def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     inside = kind == "in" and _HEADLESS_INSIDE.search(" ".join(it.said.words))
+    if kind == "on" and _STACKING & {*it.said.words} and _in_one_list(it, child, parent):
+        return True
     if inside or (kind == "on" and _from_below(it.said.words)) or not {child, parent} <= named:
         return True
     for claim in it.said.claims:
@@ -159,6 +167,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
             # "On the chest next to the bed is a lamp": the chest may be next to the bed as well.
             near = (each for each in it.said.mentions if each.start >= claim.end or each.end == claim.at)
             above = above | _names(it, list(near))
+        if claim.whole:
+            above |= _names(it, claim.whose)
         if claim.place in ("with", "holding", "under") and child in below and parent in above:
             return True
         if parent in below and child in _names(it, _added(it, claim)):
@@ -166,8 +176,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         owner = [mention for mention in it.said.mentions if mention.end == claim.at]
         if claim.place == "with" and owner and not claim.whose:
             above = _names(it, owner)
-        taken = claim.place == "far" and bool(it.tasks.strip())
-        kinds = ("on", "in") if claim.place == "with" or taken else it.kinds(claim)
+        taken = claim.place in ("far", "from") and bool(it.tasks.strip() or it.undone)
+        kinds = ("on", "in", *(("next_to",) if taken else ())) if claim.place == "with" or taken else it.kinds(claim)
         if kind in kinds and parent in below and child in above:
             return True
     had = [claim.end for claim in it.said.claims if claim.place in ("with", "holding")]

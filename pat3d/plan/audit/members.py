@@ -87,7 +87,9 @@ def _owner(it: Compared, at: int) -> tuple[Mention | None, int]:
     if {"other", "remaining"} & {*words[max(owner.first - 2, 0) : owner.start]}:
         return owner, owner.number or 0
     several = {"both", "all"} & {*words[max(owner.first - 2, 0) : owner.start]} or (owner.number or 0) > 1
-    return owner, len(it.which(owner)) if several else 0
+    there = len(it.which(owner))
+    # "One of three bowls holds a lime, the other two bowls hold an egg."
+    return owner, min(there, owner.number or there) if several else 0
 
 
 def _the_rest(it: Compared) -> Iterator[tuple[int, str]]:
@@ -317,8 +319,11 @@ def _out_of_each(it: Compared) -> Iterator[tuple[int, str]]:
 
 def _counted_list(it: Compared) -> Iterator[tuple[int, str]]:
     """The number before a colon, of which the list behind it has made more."""
+    words = it.said.words
     for mention in it.said.mentions:
-        if it.said.words[mention.end : mention.end + 1] != [":"] or (mention.number or 0) < 2:
+        numbered = [one for one in it.said.mentions if one.noun == mention.noun and one.number is not None]
+        behind = ":" in words[: mention.start] and numbered == [mention] and not _MULTIPLYING & {*words}
+        if (words[mention.end : mention.end + 1] != [":"] and not behind) or (mention.number or 0) < 2:
             continue
         there = sum(obj.noun == mention.noun for obj in it.plan.objects)
         if there > (mention.number or 0) and not it.named(mention.text):

@@ -34,6 +34,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _dozens(it)
     yield from _as_many(it)
     yield from _in_brackets(it)
+    yield from _alike(it)
     yield from _of_one(it)
     yield from _stacked(it)
     yield from _partly(it)
@@ -287,6 +288,18 @@ def _in_brackets(it: Compared) -> Iterator[tuple[int, str]]:
         plain = not NUMBERS.keys() - {"a", "an"} & {word for each in listed for word in each.split()}
         if said < at and len(listed) > 1 and plain and len(listed) != NUMBERS[words[said]]:
             yield at, f'counted otherwise: "{" ".join(words[said:at])}", of which {len(listed)} are listed'
+
+
+def _alike(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things that are to have the colour of others, and of which none has one."""
+    words = it.said.words
+    for at in range(2, len(words)):
+        said = words[at - 1 : at + 1] if words[at] in ("color", "colour") else []
+        own = [mention for mention in it.said.mentions if mention.end <= at - 1][-1:]
+        if said[:1] not in (["same"], ["matching"]) or not own or it.named(" ".join(said)):
+            continue
+        if not any(obj.colours for obj in it.which(own[0])):
+            yield at, f'not modelled: "{" ".join(said)}" of "{own[0].text}"'
 
 
 def _of_one(it: Compared) -> Iterator[tuple[int, str]]:

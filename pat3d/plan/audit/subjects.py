@@ -80,6 +80,9 @@ def said_of(it: Compared, claim: Claim) -> tuple[list[Mention], bool]:
         at -= 1
         finite = finite or words[at] in FINITE
     near = _ending(it, at)
+    if near is None and words[at - 1 : at] == [","] and {"both", "all"} & {*words[at : claim.at]}:
+        # "A bottle and a can, both standing on a shelf"
+        near = _ending(it, at - 1)
     if near is None:
         return _behind(it, claim) if at == claim.at else ([], False)
     leading = next((each for each in it.said.claims if each.of is near and each.at < claim.at), None)

@@ -210,8 +210,14 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
 
 def _hue(words: Sequence[str], at: int) -> bool:
     """Whether the fruit at word `at` is the first of some colours: "orange, yellow and green blocks"."""
-    joined = words[at + 1 : at + 2] in (["and"], [","]) and at + 2 < len(words)
-    return joined and find_colour(words[at]) is not None and find_colour(words[at + 2]) is not None
+    last = at
+    while find_colour(words[last]):
+        behind = next((n for n in (last + 2, last + 3) if n < len(words) and find_colour(words[n])
+                       and {*words[last + 1 : n]} <= {",", "and"}), 0)  # fmt: skip
+        if not behind:
+            break
+        last = behind
+    return last > at and words[last + 1 : last + 2] != [] and words[last + 1][0].isalnum() and words[last + 1] != "and"
 
 
 def _unsure(words: Sequence[str], at: int) -> bool:
@@ -229,6 +235,10 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if words[end : end + 1] == ["("] and words[end + 2 : end + 3] == [")"]:
+        # "plates (4)"
+        said = words[end + 1]
+        number = int(said) if said.isdecimal() and len(said) < 4 else NUMBERS.get(said, number)
     if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
         # "the left one pencils": the pencils of the left one.
         number = None

@@ -244,6 +244,7 @@ moved returned brought carried unload empty organize sort select identify remove
 bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
 robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
+arrange load collect toss gather sweep shove nudge deposit stow stash dump cover seal
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

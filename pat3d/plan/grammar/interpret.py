@@ -65,6 +65,7 @@ class Interpreter(Placing):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._said.asked = self._clause.manner is not None
         self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
         self._said.related = [
             (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
@@ -238,6 +239,8 @@ class Interpreter(Placing):
         made_up = (
             self._clause.manner in ("make", "stack")
             and not taken
+            and not self._clause.then
+            and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None
                 and phrase.determined
@@ -355,6 +358,10 @@ class Interpreter(Placing):
         if link.manner == "far" and self._clause.manner is not None:
             # "Take the cup away from the table": before that it is there.
             link = Link(manner="source")
+        standing = children and parents and all(self._world.on_floor(item) for item in (children[0], parents[0]))
+        if link.manner == "source" and self._clause.manner is not None and standing:
+            # "Pull the chair away from the table"
+            link = Link(kind="next_to")
         if self._clause.manner is None:
             link = self._resting(at, link, children, parents)
         places = [self._chunks[head].phrase for head in parent_heads]
@@ -436,8 +443,8 @@ class Interpreter(Placing):
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
         phrase = self._chunks[head].named
-        told = phrase.one_of or bool(phrase.superlative != NO_MODIFIERS)
-        return list(children[0].group.items) if told and len(children) == 1 else children
+        told = phrase.some or bool(phrase.superlative != NO_MODIFIERS)
+        return list(children[0].group.items) if told and len(children) == (phrase.some or 1) else children
 
     def _means(self, fact: tuple) -> bool:
         """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""

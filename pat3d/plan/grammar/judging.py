@@ -67,7 +67,14 @@ class Judging:
         same = phrase.definite and not phrase.other and any(_same(self._phrase(each), phrase) for each in heads)
         told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
         member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
-        return same or bool(member) or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
+        # "two blue, and a green one on top of a blue one"
+        colours = phrase.kind == "pieces" and phrase.modifiers.colours
+        coloured = colours and any(self._phrase(each).modifiers.colours == colours for each in heads)
+        return (
+            same
+            or bool(member or coloured)
+            or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
+        )
 
     def _named_before(self, at: int) -> bool:
         """Whether several objects are named before chunk `at`: "two boxes with a ball and a cup in each" of them."""
@@ -145,7 +152,7 @@ class Judging:
         if not word or any(phrase.kind != "object" or phrase.cycle for phrase in named):
             return False
         several = len(named) > 1 or named[0].plural or (named[0].count or 1) > 1
-        stacked = named[0].height is not None or named[0].one_of
+        stacked = named[0].height is not None or named[0].some == 1
         return not stacked and ((word[0] in _OF_ONE and several) or (word[0] in _OF_SEVERAL and not several))
 
     def _kind_named(self, start: int, end: int) -> int | None:

@@ -93,18 +93,28 @@ def _new_like(
 def _known_like(
     phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
 ) -> tuple[int | None, Phrase] | None:
-    """What "the larger one" is told from: of its kind there is nothing but what is told by its size too."""
-    if _property(phrase.modifiers) != "size":
-        return None
+    """What "the larger one" is told from, where of its kind there is nothing but what is told by its size too.
+
+    "The dirty one" after "a dirty plate" is that plate.
+    """
+    kind, value = _property(phrase.modifiers), _value(phrase.modifiers)
     named: list[tuple[int | None, Phrase]] = [*((None, one) for one in known), *before]
-    told = [(n, one) for n, one in named if one.definite and _property(one.modifiers) == "size"]
+    same = [(n, one) for n, one in named if _property(one.modifiers) == kind and _value(one.modifiers) & value]
+    if same and kind != "size":
+        return same[-1]
+    told = [(n, one) for n, one in named if one.definite and _apart(kind, value, one.modifiers)]
     if not told:
         return None
     n, one = told[-1]
     alike = [other for _, other in named if other.noun == one.noun]
-    apart = all(_property(other.modifiers) == "size" and not _value(other.modifiers) & _value(phrase.modifiers)
-                for other in alike)  # fmt: skip
-    return (n, one) if apart else None
+    return (n, one) if all(_apart(kind, value, other.modifiers) for other in alike) else None
+
+
+def _apart(kind: str, value: set[str], words: Modifiers) -> bool:
+    """Whether `words` give another size or material than `value`, or the opposite looks: "clean" and "dirty"."""
+    if _property(words) != kind or _value(words) & value:
+        return False
+    return kind != "looks" or any(pair & value and pair & _value(words) for pair in lexicon.OPPOSITES)
 
 
 def measured(words: Modifiers) -> Modifiers:

@@ -22,7 +22,9 @@ def told_alike(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
     for at, piece in enumerate(chunks):
         if piece.phrase is not None and (like := _like(made, at)) is not None:
             told = replace(piece.phrase, definite=piece.phrase.definite and _told_by(piece.phrase)[0] != "other")
-            made[at] = replace(piece, phrase=with_noun(told, like, nouns))
+            whole = with_noun(told, like, nouns)
+            several = whole.plural or piece.text.lower().endswith(" ones")
+            made[at] = replace(piece, phrase=replace(whole, plural=several))
     return made
 
 
@@ -53,6 +55,12 @@ def _like(chunks: Sequence[Chunk], at: int) -> Phrase | None:
         several = any(other.plural and not _told_by(other)[0] for m, other in before if m > n)
         if _as_much(chunks, n, at) or not several:
             return one
+    if by == "colour" and not phrase.definite:
+        # "one mug on the desk and a blue one on the shelf"
+        placed = (
+            one for n, one in before if not one.plural and chunks[n + 1].kind == "rel" and _as_much(chunks, n, at)
+        )
+        return next(placed, None)
     return None
 
 

@@ -21,7 +21,7 @@ from pat3d.plan.grammar.denials import without_denials
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
-from pat3d.plan.grammar.instructions import Clause, clauses, known_verb, task_of
+from pat3d.plan.grammar.instructions import Clause, clauses, known_verb
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
@@ -38,6 +38,7 @@ from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
+from pat3d.plan.grammar.tasks import task_of
 from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World

@@ -199,7 +199,7 @@ class Relating:
         if not cycle:
             return
         for other in world.groups:
-            same = other is not children[0].group and other.cycle == cycle and not other.replaced
+            same = other is not children[0].group and {*other.cycle} == {*cycle} and not other.replaced
             if same and other.items and world.support(other.items[0]) in parents and not other.counted:
                 other.replaced = True
                 forget_count(world, other)

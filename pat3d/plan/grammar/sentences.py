@@ -127,17 +127,18 @@ def _exceptions(told: list[list[Token]]) -> list[list[Token]]:
 
 
 def _reordered(told: list[list[Token]]) -> list[list[Token]]:
-    """`told` with "there are three plates" before the "every plate" of which it gives the number."""
+    """`told` with "there are three plates" before the "every plate", or "the plates", of which it gives the number."""
     made = list(told)
     for at, sentence in enumerate(made):
         words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
+        follows_on = len(words) > 6 and {*words} & lexicon.PRONOUNS
+        if words[:2] not in (["there", "are"], ["there's", "a"]) or follows_on:
             continue
         nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
         for before in range(at):
             before_it = [token.text for token in made[before]]
-            follows = (two for one, two in zip(before_it, before_it[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
+            named = [one for one, two in zip(before_it, before_it[1:], strict=False) if two in nouns]
+            if {*named} & {"each", "every"} or {*named} == {"the"}:
                 made.insert(before, made.pop(at))
                 break
     return made
