@@ -157,3 +157,8 @@ def test_further_ones_where_none_was_told_from_the_rest_are_noted(planner):
 def test_all_but_one_of_an_unknown_number_is_refused(planner, prompt):
     with pytest.raises(PromptError, match="of how many is not said"):
         planner.plan(prompt)
+
+
+def test_what_several_vessels_are_filled_with_is_in_each(planner):
+    plan = planner.plan("Two jugs filled with tulips.")
+    assert {relation.parent for relation in plan.relations} == {"jug 1", "jug 2"}

@@ -142,6 +142,8 @@ COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "v
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
     "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
     "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+ALIKE_IN_PLURAL = frozenset({"sheep", "fish", "deer"})
+"""Nouns of which the plural is no other word: "a herd of sheep"."""
 ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip

@@ -182,7 +182,7 @@ class GrammarPlanner:
         spans = Remarks(clause.tokens, self._nouns).spans()[:REMARKS]
         for left_out in [[span] for span in spans] + ([spans] if len(spans) > 1 else []):
             lighter = _copied(world)
-            kept = _without(clause.tokens, left_out)
+            kept = _doing_nothing(clause.tokens, left_out)
             if not Remarks(kept, self._nouns).things():
                 continue
             for start, end in left_out:
@@ -364,6 +364,18 @@ def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:
 
 def _without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
     return tuple(token for at, token in enumerate(tokens) if not any(start <= at < end for start, end in spans))
+
+
+def _doing_nothing(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
+    """`tokens` without `spans`; of "is playing with a cat" what is left is "and there is a cat": nothing has it."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        ends = next((start for start, end in spans if end == at and token.text == "with"), 0)
+        if ends and tokens[ends - 1].text in lexicon.COPULAS:
+            made[-1:] = [replace(token, text=word) for word in ("and", "there", "is")]
+        elif not any(start <= at < end for start, end in spans):
+            made.append(token)
+    return tuple(made)
 
 
 def _quoted(text: str, tokens: Sequence[Token]) -> str:
