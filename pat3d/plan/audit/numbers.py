@@ -377,7 +377,7 @@ def storeys(it: Compared) -> Iterator[tuple[int, str]]:
 
 
 def heights(it: Compared) -> Iterator[tuple[int, str]]:
-    """How many a tower is said to be of, where the plan stacks more: "a tower of four blocks has a red block on top"."""
+    """How many a tower is of, where the plan stacks more: "a tower of four cubes has a red cube on top"."""
     words = it.said.words
     for mention in it.said.mentions:
         lead = words[max(mention.first - 4, 0) : mention.first]
@@ -385,6 +385,8 @@ def heights(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         alike = [obj.name for obj in it.plan.objects if obj.noun == mention.noun]
         tallest = max((sum(below in alike for below in it.above(name)) + 1 for name in alike), default=0)
-        if tallest > mention.number and not it.named(mention.text):
+        behind = [one.start for one in it.said.mentions if one.noun == mention.noun and one.start >= mention.end]
+        added = behind and not {"has", "have", "."} & {*words[mention.end : behind[0]]}
+        if tallest > mention.number and not added and not it.named(mention.text):
             said = " ".join(words[mention.first : mention.end])
             yield mention.start, f'counted otherwise: "{said}"; {tallest} are stacked'

@@ -48,6 +48,8 @@ _RAINBOW = r"\bin (?:all )?(?:the )?(?:rainbow colou?rs|colou?rs of the rainbow)
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
 _HEADS = PRONOUNS | {"another", "other"}
+_SINGULAR_VERB = ([], ["is"], ["was"], ["in"], ["on"], ["next"], ["beside"], ["."], [","])
+"""What follows "stands" where it is a verb."""
 _ONE = frozenset({"one", "another"})
 _KNOWN = frozenset({"the", "these", "those", "both", "all", "other"})
 """Words before what was named already: "the other two cups"."""
@@ -199,6 +201,9 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
                 ["from"],
             )
             if size == 1 and (_unsure(words, at) or _hue(words, at) or whole[0] in SHADES or formed):
+                continue
+            if size > 1 and whole[-1] == "stands" and words[at + size : at + size + 1] in _SINGULAR_VERB:
+                # "The cup in which the pen stands is red"
                 continue
             name = find(" ".join(whole))
             single = [found for one in singulars(whole[-1]) if (found := find(" ".join([*whole[:-1], one])))]

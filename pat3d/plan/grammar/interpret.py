@@ -339,6 +339,12 @@ class Interpreter(Placing):
             # "Stack the cups, the red one at the bottom, the blue one on top": by no cup.
             self._world.note(f'not understood: "{self._chunks[at].text} {self._chunks[parent_heads[0]].text}"')
             return
+        owned = [self._chunks[head].named for head in child_heads]
+        if all(one.kind == "part" and one.possessive for one in owned) and link.kind in LATERAL_KINDS:
+            # "A bottle, its cap beside it": the cap is none of its own.
+            said = " ".join(self._chunks[head].text for head in (*child_heads, at, *parent_heads))
+            self._world.note(f'not modelled: "{said}"')
+            return
         later = any(self._said.is_open(head) for head in child_heads)
         parents = [] if later else self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)

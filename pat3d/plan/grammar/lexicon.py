@@ -338,7 +338,7 @@ PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
     "jam": "jam jar", "shampoo": "shampoo", "trash": "trash can", "garbage": "trash can", "rubbish": "trash can",
-    "tap": "faucet", "pad": "mat",
+    "tap": "faucet",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {
