@@ -254,7 +254,7 @@ class Intents:
                 if ring is not None:
                     way = (-math.cos(ring), -math.sin(ring))
                 else:
-                    way = ahead if line else self._way(intent, observer, target) or _FACING[number]
+                    way = ahead if line else self._way(intent, observer, target) or _FACING[number % len(_FACING)]
                     pair = intent.moved((observer, target))
                     # Of a row, the middle one has the target straight ahead.
                     if not line or observer == line[len(line) // 2]:

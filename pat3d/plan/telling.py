@@ -14,7 +14,7 @@ _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight"
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
             "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",
-            "lens": "lenses", "fish": "fish", "bread": "loaves of bread"}  # fmt: skip
+            "lens": "lenses", "fish": "fish", "sheep": "sheep", "bread": "loaves of bread"}  # fmt: skip
 _PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
 """Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
 _MASSES = frozenset({
@@ -133,7 +133,10 @@ class _Teller:
             pairs = [(other, self._children(other)) for other in kind]
             likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
             if all(len(each) == 1 for each in likes) and all(len(names) == 1 for _, names in pairs):
-                return [each[0] for each in likes], f"the {_count(len(kind))} {plural(self._base[parent])}, one on each"
+                likes_own = [each[0] for each in likes]
+                within = all(self._kind(name) == "in" for name in likes_own)
+                each = "one in each" if within else "one on each"
+                return likes_own, f"the {_count(len(kind))} {plural(self._base[parent])}, {each}"
         return own, self._the(parent)
 
     def _spread(self, parent: str, kind: str) -> tuple[list[str], str] | None:

@@ -256,7 +256,7 @@ def test_rows_that_cross_are_a_grid_only_at_right_angles():
     assert not any(result.holds for result in check_arranged(rows, (), dict.fromkeys(places, block()), poses))
 
 
-@pytest.mark.parametrize("names", ["ab", "abc", "abcd"])
+@pytest.mark.parametrize("names", ["ab", "abc", "abcd", "abcdef"])
 @pytest.mark.parametrize("wide", [0.2, 0.8, 1.6])
 def test_several_that_face_one_thing_stand_in_a_row_before_it(names, wide):
     assets = {"tv": block(wide, 0.2, 0.6), **{name: block(0.4, 0.4, 0.9, noun="chair") for name in names}}

@@ -39,6 +39,8 @@ def held(plan: ScenePlan) -> set[str]:
         ("A bench with a box at each corner.", {"box 1, box 2, box 3, box 4 in_corners bench"}),
         ("Three cans are in the corners of a desk.", {"can 1, can 2, can 3 in_corners desk"}),
         ("Four dice, one in each corner of a tray.", {"dice 1, dice 2, dice 3, dice 4 in_corners tray"}),
+        ("Six dogs sit in a row, facing a lamp.",
+         {"dog 1, dog 2, dog 3, dog 4, dog 5, dog 6 row", "dog 1, dog 2, dog 3, dog 4, dog 5, dog 6 facing lamp"}),
         # around several
         ("Seven cans stand in a ring around a vase and a lamp on a desk.",
          {"can 1, can 2, can 3, can 4, can 5, can 6, can 7 circle vase, lamp"}),

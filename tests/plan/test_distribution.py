@@ -166,6 +166,11 @@ def test_all_but_one_of_an_unknown_number_is_refused(planner, prompt):
         planner.plan(prompt)
 
 
+def test_what_several_vessels_are_filled_with_is_in_each(planner):
+    plan = planner.plan("Two jugs filled with tulips.")
+    assert {relation.parent for relation in plan.relations} == {"jug 1", "jug 2"}
+
+
 @pytest.mark.parametrize(
     ("prompt", "names", "supports"),
     [

@@ -75,6 +75,8 @@ def test_everything_that_is_to_be_moved_has_its_task(prompt: str, tasks: list[st
         ("On the desk, behind the clock, stands a jar.", {"clock on desk", "jar on desk", "jar behind clock"}),
         ("On the shelf to the right of the radio there is a jar.",
          {"radio on shelf", "jar on shelf", "jar right_of radio"}),
+        ("On top of the crate, next to the ball, is a jar.", {"ball on crate", "jar on crate", "jar next_to ball"}),
+        ("A jar and a can stand on a desk.", {"jar on desk", "can on desk"}),
         ("A jar is on the desk next to the clock.", {"clock on desk", "jar on desk", "jar next_to clock"}),
         ("On the rug next to the bed stands a chair.", {"rug next_to bed", "chair on rug"}),
         ("A plate with a muffin and a mug beside it.", {"muffin on plate", "mug next_to plate"}),
@@ -141,6 +143,18 @@ def test_what_is_only_done_later_or_with_something_is_not_there_before(prompt: s
     plan = PLANNER.plan(prompt)
     assert not plan.relations
     assert plan.notes
+
+
+def test_what_follows_a_deed_that_is_left_out_gives_no_relation():
+    plan = PLANNER.plan("A dog is trying to play with a cat that is on a sofa.")
+    assert _relations(plan) == {"cat on sofa"}
+    assert 'not modelled: "trying to play"' in plan.notes
+
+
+def test_a_place_that_may_be_of_two_things_is_told_for_both():
+    plan = PLANNER.plan("On the tray between the two mugs is a spoon.")
+    assert plan.otherwise
+    assert "The spoon is between the two mugs" in plan.otherwise
 
 
 def test_a_figure_holds_nothing_and_a_note_says_so():

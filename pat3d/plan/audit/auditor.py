@@ -15,7 +15,17 @@ from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.members import shares
-from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import (
+    choices,
+    had_by_each,
+    heights,
+    listed_colours,
+    numbers,
+    rows,
+    shared_colours,
+    sizes,
+    storeys,
+)
 from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
@@ -190,7 +200,15 @@ class _Auditor(Compared):
             *without(self),
         ]
         made += [*requests(self), *shares(self), *chained(self)]
-        made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
+        made += [
+            *confused(self),
+            *numbers(self),
+            *rows(self),
+            *choices(self),
+            *sizes(self),
+            *storeys(self),
+            *heights(self),
+        ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)
         for claim in self.said.claims:

@@ -374,3 +374,19 @@ def storeys(it: Compared) -> Iterator[tuple[int, str]]:
             wrong = {"top": above > 0, "middle": bool(below) != bool(above)}.get(word, below > 0)
             if below + above > 0 and wrong:
                 yield at, f'not as said: "the {word} one {colour}"'
+
+
+def heights(it: Compared) -> Iterator[tuple[int, str]]:
+    """How many a tower is of, where the plan stacks more: "a tower of four cubes has a red cube on top"."""
+    words = it.said.words
+    for mention in it.said.mentions:
+        lead = words[max(mention.first - 4, 0) : mention.first]
+        if mention.number is None or mention.number < 2 or not {"tower", "stack", "pile"} & {*lead}:
+            continue
+        alike = [obj.name for obj in it.plan.objects if obj.noun == mention.noun]
+        tallest = max((sum(below in alike for below in it.above(name)) + 1 for name in alike), default=0)
+        behind = [one.start for one in it.said.mentions if one.noun == mention.noun and one.start >= mention.end]
+        added = behind and not {"has", "have", "."} & {*words[mention.end : behind[0]]}
+        if tallest > mention.number and not added and not it.named(mention.text):
+            said = " ".join(words[mention.first : mention.end])
+            yield mention.start, f'counted otherwise: "{said}"; {tallest} are stacked'

@@ -14,6 +14,7 @@ from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.words import (
     ADJECTIVES,
+    ALIKE_IN_PLURAL,
     ARTICLES,
     BREAKING,
     ENDING,
@@ -145,6 +146,7 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\bnot far (?:away )?from\b", "near", prompt)
     prompt = re.sub(r"\bthere (?:appear|seem|happen)s? to be\b", "there is", prompt)
     prompt = re.sub(r"\breach for\b", "take", prompt)
+    prompt = re.sub(r"\b(is|are|was|were) out of\b", r"\1 outside", prompt)
     prompt = re.sub(_RAINBOW, "", prompt)
     prompt = re.sub(rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", "", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
@@ -247,7 +249,8 @@ def _mention(
     if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
         # "the left one pencils": the pencils of the left one.
         number = None
-    if _elliptic(words, ahead) or SOME & lead:
+    gathered = words[end - 1] in ALIKE_IN_PLURAL and number in (None, 1) and "of" in words[max(start - 2, 0) : start]
+    if _elliptic(words, ahead) or SOME & lead or gathered:
         number, plural = None, True
     return Mention(
         start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun,

@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.matching import line_up, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
+from pat3d.plan.grammar.objects import tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
@@ -42,6 +44,24 @@ class Contrast(Pronouns):
         part = names & (lexicon.STORAGE_PARTS | lexicon.DETACHED | lexicon.DRAWERS) or phrase.part or group.phrase.part
         renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
         return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
+
+    @staticmethod
+    def _told_by_size(items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that is "the small box", or "the tallest box"; all where `phrase` gives no size."""
+        words = measured(phrase.modifiers)
+        shape = {*words.adjectives} & SHAPES
+        if not words.size_word and not shape:
+            return items
+        own = items[0].group.modifiers
+        own_size = words.size_word if words.size_word else next(iter(shape))
+        if own_size in (own.size_word, *own.adjectives):
+            return items
+        told = [item for item in items if own_size in (item.told.size_word, *item.told.adjectives)]
+        free = [item for item in items if not item.told.size_word and not {*item.told.adjectives} & SHAPES]
+        for item in () if told else free[:1]:
+            tell(item, words)
+            item.told = replace(item.told, adjectives=(*item.told.adjectives, *shape))
+        return told[:1] or free[:1] or items
 
     def _any_of(self, at: int, phrase: Phrase) -> list[Item] | None:
         """One of several that a sentence before has named, where "a box" is what something is in, or is to be moved."""

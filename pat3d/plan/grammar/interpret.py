@@ -11,7 +11,7 @@ from pat3d.plan.grammar.account import holds_already, learned, miscounted, words
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
-from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
+from pat3d.plan.grammar.distribution import all_like, as_many, for_each, hand_out, share
 from pat3d.plan.grammar.instructions import SHUTTING, Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
@@ -399,7 +399,7 @@ class Interpreter(Placing):
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
             children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
-        parents = self._as_many(children, link, parents)
+        parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)
         of_all = self._said.speaks_of_each(parent_heads, carrying=True)
         had = share(self._world, link, parents, children, all_of=of_all, having=having)
@@ -432,19 +432,6 @@ class Interpreter(Placing):
         owners = [inner for head in parent_heads for inner in self._said.bound[head]]
         links = [chunk.link for chunk in self._chunks[max(owners) : at]]
         return any(link is not None and link.finite and link.inverse for link in links)
-
-    def _as_many(self, children: list[Item], link: Link, parents: list[Item]) -> list[Item]:
-        """`parents` of which the number is not said: as many as the `children`, each with its own, or no more."""
-        group, wanted = parents[0].group, len(self._world.bases(children))
-        own = self._world.is_a(parents[0], lexicon.BENEATH_CUPS, ("placemat",))
-        fresh = group.phrase.plural and not group.counted and not group.phrase.definite and not group.modifiers.palette
-        fresh = fresh and group.height == 1 and all(self._world.support(item) is None for item in group.items)
-        if link.kind not in SUPPORT_KINDS or not fresh or len(parents) != len(group.items) or wanted < 2:
-            return parents
-        if wanted < len(parents) or (own and wanted > len(parents)):
-            recount(self._world, group, wanted)
-            return list(group.items)
-        return parents
 
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""

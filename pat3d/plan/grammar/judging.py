@@ -17,6 +17,9 @@ _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "l
 _OF_SEVERAL = frozenset({"are", "were", "sit", "stand", "lie", "rest", "hang", "lean", "have", "hold", "contain"})
 HEADLESS = ("pieces", "part")
 
+_NATURAL = 0.25
+"""Cost of a relation below which people expect it."""
+
 
 class Judging:
     """Questions about the chunks of one sentence."""
@@ -99,6 +102,18 @@ class Judging:
             large = any(too_large(self._noun(child), self._noun(parents[0])) for child in children)
             return max(*costs, 1.3 * large)
         return sum(costs) / max(len(costs), 1)
+
+    def _carries_it(self, link: Link, named: Node, modifier: Node) -> bool:
+        """Whether what is "on it" in `modifier` may be on `named`: "a plate on a desk with a bun on it"."""
+        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) > 1:
+            return False
+        its = {fact[1] for fact in modifier.facts if fact[0] == "bind" and fact[2] == modifier.heads}
+        rels = [fact for fact in modifier.facts if fact[0] == "rel" and its & set(fact[3])]
+        return any(
+            self._link(at).kind in SUPPORT_KINDS
+            and self._likely.relation(self._link(at), self._noun(children[0]), self._noun(named.heads[0])) < _NATURAL
+            for _, at, children, _ in rels
+        )
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
         return len(heads) == 1 and (

@@ -28,7 +28,7 @@ def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]
             continue
         told = [(n, one.phrase) for n, one in enumerate(made[:at]) if one.phrase is not None]
         before = [(n, one) for n, one in told if one.kind == "object" and not one.cycle]
-        like = (_known_like if phrase.definite else _new_like)(phrase, before, known)
+        like = _known_like(phrase, before, known) if phrase.definite else _new_like(phrase, before, made[:at], known)
         if like is None:
             continue
         n, one = like
@@ -78,13 +78,17 @@ def _several(phrase: Phrase) -> bool:
 
 
 def _new_like(
-    phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
+    phrase: Phrase, before: Sequence[tuple[int, Phrase]], chunks: Sequence[Chunk], known: Collection[Phrase]
 ) -> tuple[int, Phrase] | None:
-    """What "a short one" is one more of; None where it is one of what was named, or that cannot be told."""
+    """What "a short one" behind `chunks` is one more of; None where it is one of what was named, or cannot be told."""
     kind, value = _property(phrase.modifiers), _value(phrase.modifiers)
     alike = [(n, one) for n, one in before if _property(one.modifiers) == kind]
-    first = [(n, one) for n, one in before[:1] if not known]
-    n, one = next(iter([*reversed(alike), *first]), (0, None))
+    if not alike and (known or any(_several(one) for _, one in before)):
+        return None
+    # "On a tray are a cup and a small one": no tray; "a cup stands on a tray, and a small one ...": no tray either.
+    free = [(n, one) for n, one in before if not n or chunks[n - 1].kind != "rel"]
+    listed = [(n, one) for n, one in free[-1:] if n == len(chunks) - 2 and chunks[-1].kind == "joint"]
+    n, one = next(iter([*reversed(alike), *listed, *free, *before]), (0, None))
     if one is None or (_several(one) and (not _property(one.modifiers) or _value(one.modifiers) & value)):
         return None
     return n, one

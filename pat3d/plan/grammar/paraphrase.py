@@ -67,7 +67,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
     tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
@@ -291,7 +291,14 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
-        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and before not in (".", ","))):
+        if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
+            # "The dog is out of the box": not in it.
+            kept.append(replace(token, text="outside"))
+            continue
+        # "A can stand", "a soda can stand" is of a can.
+        subject = before not in (".", ",") and before not in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
+        subject = subject and not is_modifier(before) and not nouns.match([before, token.text])
+        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and subject)):
             continue
         if token.text == "'s" and before not in plain and not nouns.match([before]):
             kept.pop()

@@ -348,6 +348,8 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
+            if amount is None and inner.head in lexicon.ALIKE_IN_PLURAL:
+                inner, amount = replace(inner, vague=True), lexicon.BARE_PLURAL
             if head in ("sets", "groups", "bunches", "collections", "clusters"):
                 # "two sets of keys": how many are in each is not said.
                 amount = (count or 2) * (inner.count or lexicon.BARE_PLURAL)

@@ -156,7 +156,9 @@ class Pronouns:
             # A stack is "it".
             if plural != (len(self._world.bases(items)) > 1):
                 cost += 0.7 if plural else 0.4
-            told = bool(other) and other[0].group.modifiers != NO_MODIFIERS
+            # "On the shelf is a thick book, and a thin one lies on it": on the book.
+            told = bool(other) and link is not None and link.kind == "on"
+            told = told and other[0].group.modifiers != NO_MODIFIERS
             if not plural and other and not told and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box.
                 cost += 0.6

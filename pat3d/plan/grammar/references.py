@@ -10,7 +10,6 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
-from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import (
     ALONG,
@@ -212,24 +211,6 @@ class References(Contrast):
         if phrase.plural or len(items) == 1 or group.height > 1:
             return list(items)
         return items[: phrase.count or 1] if wanted else list(items)
-
-    @staticmethod
-    def _told_by_size(items: list[Item], phrase: Phrase) -> list[Item]:
-        """The one of `items` that is "the small box", or "the tallest box"; all where `phrase` gives no size."""
-        words = measured(phrase.modifiers)
-        shape = {*words.adjectives} & SHAPES
-        if not words.size_word and not shape:
-            return items
-        own = items[0].group.modifiers
-        own_size = words.size_word if words.size_word else next(iter(shape))
-        if own_size in (own.size_word, *own.adjectives):
-            return items
-        told = [item for item in items if own_size in (item.told.size_word, *item.told.adjectives)]
-        free = [item for item in items if not item.told.size_word and not {*item.told.adjectives} & SHAPES]
-        for item in () if told else free[:1]:
-            tell(item, words)
-            item.told = replace(item.told, adjectives=(*item.told.adjectives, *shape))
-        return told[:1] or free[:1] or items
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]

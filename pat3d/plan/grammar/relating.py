@@ -220,6 +220,9 @@ class Relating:
         self._settle(children, parents)
         if link.said == "over":
             world.over += _paired(children, parents)
+        lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
+        if link.said == "over" and not lies and not world.is_a(parent, lexicon.RACKS, lexicon.HOLLOW):
+            world.note(f"not arranged: {said.format('over')}; it is placed on it")
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
         tops = world.tops(parents)
