@@ -34,6 +34,7 @@ def flagged(plan: ScenePlan) -> list[str]:
     [
         ("Both bowls contain a lemon.", ["bowl 1", "bowl 2"], {"lemon": 1}),
         ("Two plates hold a bun.", ["plate 1", "plate 2"], {"bun": 1}),
+        ("Two plates hold a brown bun.", ["plate 1", "plate 2"], {"bun": 1}),
         ("All three mugs hold a pencil.", ["mug 1", "mug 2", "mug 3"], {"pencil": 1}),
         ("Both trays have a cup and a spoon on them.", ["tray 1", "tray 2"], {"cup": 1, "spoon": 1}),
         ("Two of the three boxes contain a cube.", ["box 1", "box 2"], {"cube": 1}),

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.numbers import had_by_each
 from pat3d.plan.audit.places import for_each
 from pat3d.plan.audit.subjects import row_of
 from pat3d.plan.audit.text import Claim, Mention
@@ -113,7 +114,8 @@ def _by_colour(it: Compared) -> Iterator[tuple[int, str]]:
         return
     told: dict[tuple[str, str], list[int]] = {}
     for mention in it.said.mentions:
-        if mention.number is not None and mention.new and len(mention.colours) == 1 and "or" not in words:
+        each = had_by_each(it, mention)
+        if mention.number is not None and mention.new and len(mention.colours) == 1 and "or" not in words and not each:
             told.setdefault((mention.noun, mention.colours[0]), []).append(mention.number)
     for at in range(1, len(words) - 1):
         colour, number = find_colour(words[at]), NUMBERS.get(words[at - 1])
