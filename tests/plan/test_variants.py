@@ -137,3 +137,7 @@ def test_a_refusal_names_the_words_at_fault(planner: GrammarPlanner, sentence: s
 
 def test_what_is_written_at_the_end_of_a_sentence_is_set_aside(planner: GrammarPlanner):
     assert [obj.noun for obj in planner.plan('A mug reading "12/2020"').objects] == ["mug"]
+
+
+def test_who_turns_is_no_object(planner: GrammarPlanner):
+    assert [obj.noun for obj in planner.plan("Turn to face the desk.").objects] == ["desk"]

@@ -122,7 +122,7 @@ def end_state(body: list[Token], verb: str, manner: str | None) -> tuple[list[To
         amount = (n for n in range(2, len(body)) if words[n] in _WAYS or is_measure(words[n]) or
                   (words[n : n + 2] == ["to", "the"] and words[n + 2 :] in (["left"], ["right"])))  # fmt: skip
         end = next(amount, len(body))
-        body = body[: end - (words[end - 1] == "by")]
+        body = body[: end - (end > 0 and words[end - 1] == "by")]
     above = next((n for n in range(1, len(body) - 1) if tuple(words[n : n + 2]) in _COMING), 0)
     if above and above + 2 == len(body):
         whole = replace(body[above], end=body[above + 1].end)
