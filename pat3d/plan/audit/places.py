@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
+from pat3d.plan.audit.chained import listed_place
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Mention, singulars
 from pat3d.plan.audit.words import (
@@ -69,7 +70,8 @@ def unplaced(it: Compared) -> Iterator[str]:
         carried = any(set(it.above(obj.name)) - {like.name for like in whole} for obj in whole)
         if phrase.lower() not in it.told and (len(own) == len(whole) or (carried and not beside)):
             some = f"{len(own)} of {len(whole)}: where they are" if len(own) < len(whole) else "where"
-            yield f'"{phrase}": {some} is not said; on the ground'
+            told = listed_place(it, own[0]) if len(own) == len(whole) else ""
+            yield f'"{phrase}": {told or f"{some} is not said"}; on the ground'
 
 
 def _on_the_floor(it: Compared) -> set[str]:
