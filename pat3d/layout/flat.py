@@ -9,6 +9,11 @@ import numpy as np
 
 from pat3d.layout.bodies import Array
 
+_MOUSE, _COMPUTERS = "computer mouse", frozenset({"laptop", "keyboard", "computer"})
+"""Most people's mouse is right of what they type on."""
+WRONG_HAND = 0.5
+"""What the other side weighs [m]."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Item:
@@ -93,6 +98,13 @@ class Spot:
     """[m], shape (2,)."""
     quarter: bool = False
     """Whether it was turned by 90 degrees."""
+
+
+def right_hand(item: Item, other: Item) -> float:
+    """1 where `item` belongs right of `other` if nothing is said, -1 where left of it, 0 where anywhere."""
+    if item.alike == _MOUSE and other.alike in _COMPUTERS:
+        return 1.0
+    return -1.0 if other.alike == _MOUSE and item.alike in _COMPUTERS else 0.0
 
 
 def natural_gap(first: Array, second: Array) -> float:

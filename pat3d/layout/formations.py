@@ -96,12 +96,14 @@ class Sight:
     way: tuple[float, float]
     gap: float = 0.0
     """Least free distance [m]: from a row, all of which faces one thing, it has to be far enough."""
+    askew: float = ASKEW
+    """Largest angle between `way` and the direction to the target [degrees]."""
 
     def meets(self, offset: Array) -> NDArray[np.bool_]:
         """Whether `offset` [m], shape (n, 2), from the observer's middle to the target's, is that way."""
         way = np.array(self.way)
         along = offset @ way
-        return np.abs(offset @ np.array([-way[1], way[0]])) <= math.tan(math.radians(ASKEW)) * along
+        return np.abs(offset @ np.array([-way[1], way[0]])) <= math.tan(math.radians(self.askew)) * along
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,6 +27,8 @@ _AHEAD = 17.0
 """Angle [degrees] at which the ends of a row see what all of it faces."""
 _PLACES = {"in_corners": "in_corner"}
 """Where the layout puts each single thing, of which it finds no two a place where another is."""
+_STRAIGHT = 2.0
+"""The same of the one in its middle."""
 _FACING = ((1.0, 0.0), (-1.0, 0.0), (0.0, -1.0), (0.0, 1.0))
 """Where the first, second, ... of several that face one thing have it."""
 
@@ -78,7 +80,11 @@ class Intents:
         # Who faces what depends on the circles and rows that they stand in.
         audiences = [row for one in arrangements if (row := self._audience(one, arrangements)) is not None]
         for one in sorted([*arrangements, *audiences], key=lambda one: one.kind == "facing"):
+            known = len(self.notes)
             intent = self._placed(one, kinds)
+            if one in audiences:
+                # Nobody has asked for that row.
+                del self.notes[known:]
             if intent is not None:
                 self.by_surface.setdefault(intent.support, []).append(intent)
                 self._turn(intent)
@@ -150,7 +156,7 @@ class Intents:
                 fixed = ring_of_carriers(items, build(name).size[:2])
                 formations.append(Formation(members=tuple(feet), fixed=fixed))
         sights = tuple(
-            replace(one, gap=self._back(one, support, groups))
+            replace(one, gap=back, askew=_STRAIGHT) if (back := self._back(one, support, groups)) else one
             for one in self._sights.get(support, [])
             if {one.observer, one.target} <= set(groups)
         )
@@ -194,9 +200,9 @@ class Intents:
         for row in (one.moved(one.arrangement.objects) for one in rows):
             if sight.observer in row and set(row) <= set(groups):
                 sizes = [groups[name].size[:2] for name in row]
-                free = sum(natural_gap(one, other) for one, other in zip(sizes, sizes[1:], strict=False))
-                length = sum(float(one[0]) for one in sizes[1:]) + free
-                return length / 2 / math.tan(math.radians(_AHEAD))
+                pitch = max(float(one[0]) for one in sizes) + max(natural_gap(*pair) for pair in pairwise(sizes))
+                aside = max(row.index(sight.observer), len(row) - 1 - row.index(sight.observer)) * pitch
+                return aside / math.tan(math.radians(_AHEAD))
         return 0.0
 
     def _placed(self, one: Arrangement, kinds: Mapping[str, str]) -> Intent | None:
@@ -248,7 +254,7 @@ class Intents:
                 if ring is not None:
                     way = (-math.cos(ring), -math.sin(ring))
                 else:
-                    way = ahead if line else self._way(intent, observer, target) or _FACING[number]
+                    way = ahead if line else self._way(intent, observer, target) or _FACING[number % len(_FACING)]
                     pair = intent.moved((observer, target))
                     # Of a row, the middle one has the target straight ahead.
                     if not line or observer == line[len(line) // 2]:

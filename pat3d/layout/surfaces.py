@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
-from pat3d.layout.flat import Item, Lateral, Spot, Surface, natural_gap
+from pat3d.layout.flat import WRONG_HAND, Item, Lateral, Spot, Surface, natural_gap, right_hand
 from pat3d.layout.formations import CLOSE, Wishes, far_gap, ring_angles
 from pat3d.scene.relations import OPPOSITE, SIDES
 
@@ -319,6 +319,7 @@ class _Search:
                 if kind == "next_to":
                     # Beside means left or right of it, in line, unless there is no free space.
                     cost += 1.5 * in_line[:, 1] + np.where(separation[:, 0] > 0, 0.0, 0.5 * half[1])
+                    cost += WRONG_HAND * (right_hand(item, other) * (centres - middle)[:, 0] < 0.0)
                 elif lat.child == item.name:
                     angle = np.arctan2(centres[:, 1] - middle[1], centres[:, 0] - middle[0])
                     turn = np.abs((angle - self.rings[item.name] + math.pi) % (2 * math.pi) - math.pi)

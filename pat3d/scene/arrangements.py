@@ -108,7 +108,7 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
     "facing": ArrangementRule(
         words="facing",
         alone="facing each other",
-        objects=(1, 4),
+        objects=(1, MANY),
         of=(0, 1),
         holds="the front points to the middle of what it faces, within 20 degrees",
     ),

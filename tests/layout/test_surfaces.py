@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -43,6 +44,20 @@ def test_rectangles_stand_apart_on_the_surface():
     assert (np.abs(places) + 0.05 <= np.array(surface.half_size) + 1e-9).all()
     apart = np.abs(places[:, None] - places[None]).max(axis=2)[np.triu_indices(5, 1)]
     assert apart.min() >= 0.1 + min(strategy.least for strategy in _STRATEGIES) - 1e-6
+
+
+@pytest.mark.parametrize("order", [("mouse", "laptop"), ("laptop", "mouse")])
+def test_a_mouse_is_right_of_the_laptop_that_it_is_next_to_unless_it_is_said_to_be_left(order):
+    things = {
+        "mouse": replace(rectangle(0.06, 0.1, "mouse"), alike="computer mouse"),
+        "laptop": replace(rectangle(0.3, 0.2, "laptop"), alike="laptop"),
+    }
+    for kind, sign in (("next_to", 1.0), ("left_of", -1.0)):
+        for child, parent in (order, order[::-1]) if kind == "next_to" else (("mouse", "laptop"),):
+            told = [Lateral(child=child, kind=kind, parent=parent)]
+            spots = arrange_flat([things[name] for name in order], told, Surface(half_size=(0.6, 0.4)))
+            assert spots is not None
+            assert sign * (spots["mouse"].position - spots["laptop"].position)[0] > 0.15
 
 
 @pytest.mark.parametrize("strategy", [s for s in _STRATEGIES if s.overhang])

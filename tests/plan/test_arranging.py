@@ -39,6 +39,8 @@ def held(plan: ScenePlan) -> set[str]:
         ("A bench with a box at each corner.", {"box 1, box 2, box 3, box 4 in_corners bench"}),
         ("Three cans are in the corners of a desk.", {"can 1, can 2, can 3 in_corners desk"}),
         ("Four dice, one in each corner of a tray.", {"dice 1, dice 2, dice 3, dice 4 in_corners tray"}),
+        ("Six dogs sit in a row, facing a lamp.",
+         {"dog 1, dog 2, dog 3, dog 4, dog 5, dog 6 row", "dog 1, dog 2, dog 3, dog 4, dog 5, dog 6 facing lamp"}),
         # around several
         ("Seven cans stand in a ring around a vase and a lamp on a desk.",
          {"can 1, can 2, can 3, can 4, can 5, can 6, can 7 circle vase, lamp"}),
@@ -101,6 +103,7 @@ def test_what_is_said_is_held(sentence: str, wanted: set[str]):
         ("A book leaning against the wall.", ""),
         ("Two books leaning against each other.", "leaning against each other"),
         ("Two books lean on a box.", "leaning against"),
+        ("A table stands next to a lamp. A can and a bowl on the table are facing the lamp.", "facing"),
         ("A chair hanging from a tree, with a ball under it.", "under"),
         ("A book under a lamp.", ""),
         ("Two balls in a circle.", "in a circle"),
@@ -274,3 +277,10 @@ def test_who_stands_where_in_a_row(prompt: str, row: tuple[str, ...]):
 def test_what_is_said_of_two_of_a_row_and_heard_of_one_is_noted():
     notes = PLANNER.plan("Five pens in a row, the first and the last one green.").notes
     assert 'not understood: "the first"' in notes
+
+
+@pytest.mark.parametrize("prompt", ["A bucket with a board across the top.", "A bucket, and a board across the top."])
+def test_across_the_top_is_across_the_one_vessel(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert held(plan) == {"board across bucket"}
+    assert plan.notes == ()

@@ -32,6 +32,15 @@ def test_a_vessel_over_something_is_upside_down_around_it(prompt: str):
     assert not [note for note in plan.notes if "hidden" not in note]
 
 
+def test_several_small_things_are_under_one_vessel():
+    plan = PLANNER.plan("Two coins are under an upside-down bowl on a tray.")
+    assert [(one.kind, one.objects, one.of, one.arranged) for one in plan.arrangements] == [
+        ("under", ("coin 1", "coin 2"), ("bowl",), True)
+    ]
+    assert plan.parent("bowl") == plan.parent("coin 2") == "tray"
+    assert not plan.notes
+
+
 @pytest.mark.parametrize(
     ("prompt", "note"),
     [

@@ -110,6 +110,12 @@ def test_a_noun_left_out_is_that_of_its_like(planner, prompt, supports):
     assert flagged(plan) == []
 
 
+def test_two_are_moved_where_each_is_told_by_its_place(planner):
+    plan = planner.plan("Put the first mug on the tray and the second on the shelf.")
+    assert [obj.name for obj in plan.objects] == ["mug 1", "tray", "mug 2", "shelf"]
+    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+
+
 def test_two_are_moved_where_each_is_told_by_its_colour(planner):
     plan = planner.plan("Put the red mug on the tray and the blue one on the shelf.")
     assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
@@ -157,3 +163,52 @@ def test_further_ones_where_none_was_told_from_the_rest_are_noted(planner):
 def test_all_but_one_of_an_unknown_number_is_refused(planner, prompt):
     with pytest.raises(PromptError, match="of how many is not said"):
         planner.plan(prompt)
+
+
+def test_what_several_vessels_are_filled_with_is_in_each(planner):
+    plan = planner.plan("Two jugs filled with tulips.")
+    assert {relation.parent for relation in plan.relations} == {"jug 1", "jug 2"}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "names", "supports"),
+    [
+        ("A mug is on the tray; a second one, which is white, is on the shelf.",
+         ["mug", "tray", "white mug", "shelf"], {"mug on tray", "white mug on shelf"}),
+        ("Two white pens are in the cup; a third one, which is black, lies on the desk.",
+         ["white pen 1", "white pen 2", "cup", "black pen", "desk"],
+         {"white pen 1 in cup", "white pen 2 in cup", "black pen on desk"}),
+        ("There's one vase on the table and another one, a white one, on the shelf.",
+         ["vase", "table", "white vase", "shelf"], {"vase on table", "white vase on shelf"}),
+        ("Four balls: two white, one black, and a red one on top of a white one.",
+         ["white ball 1", "white ball 2", "black ball", "red ball"], {"red ball on white ball 1"}),
+        ("A plate and a bowl are on a desk. The first is black, the second white.",
+         ["black plate", "white bowl", "desk"], {"black plate on desk", "white bowl on desk"}),
+        ("A large jar and a small jar, with a pear in the former and a plum in the latter.",
+         ["large jar", "small jar", "pear", "plum"], {"pear in large jar", "plum in small jar"}),
+        ("Three mugs: the first is red, the second white and the third black.",
+         ["red mug", "white mug", "black mug"], set()),
+        ("Spoons (2), white bowl (1) and mugs (three).",
+         ["spoon 1", "spoon 2", "white bowl", "mug 1", "mug 2", "mug 3"], set()),
+        ("A tower of a red, a white and a black cube, black at the bottom.",
+         ["black cube", "red cube", "white cube"], {"red cube on black cube", "white cube on red cube"}),
+        ("The mug in which the pencil stands is red.", ["red mug", "pencil"], {"pencil in red mug"}),
+    ],
+)  # fmt: skip
+def test_one_of_several_is_that_one(planner, prompt, names, supports):
+    plan = planner.plan(prompt)
+    assert [obj.name for obj in plan.objects] == names
+    assert {str(rel) for rel in plan.relations if rel.supports} == supports
+    assert [note for note in flagged(plan) if "hardly stays" not in note] == []
+
+
+def test_what_is_in_one_of_its_parts_is_in_the_whole(planner):
+    plan = planner.plan("A box with three compartments: a pen in one, a key in another, and a coin in the third.")
+    assert {str(rel) for rel in plan.relations} == {"pen in box", "key in box", "coin in box"}
+    assert any("compartments" in note for note in plan.notes)
+
+
+def test_a_part_that_lies_apart_is_named_in_a_note(planner):
+    plan = planner.plan("A bottle stands on a table, its cap beside it.")
+    assert [str(rel) for rel in plan.relations] == ["bottle on table"]
+    assert 'not modelled: "its cap beside it"' in plan.notes

@@ -84,3 +84,14 @@ def test_a_side_behind_the_goal_is_said_to_be_read_of_the_goal():
     plan = PLANNER.plan("Pick up the plum and put it on the tray to the right of the basket.")
     assert plan.task == "place:plum:tray"
     assert '"to the right of the basket" is read as said of "the tray", not of where on it.' in plan.notes
+
+
+def test_what_is_beside_something_is_not_moved_to_it():
+    plan = PLANNER.plan("Grab the plum next to the lime and drop it in the basket.")
+    assert ({str(relation) for relation in plan.relations}, plan.task) == ({"plum next_to lime"}, "place:plum:basket")
+
+
+def test_a_deed_before_another_is_no_scene():
+    plan = PLANNER.plan("Put a plum in the basket, then put the basket on the tray.")
+    assert plan.relations == ()
+    assert any("place:plum:basket, place:basket:tray" in note for note in plan.notes)

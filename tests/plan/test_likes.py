@@ -31,6 +31,12 @@ def told(plan: ScenePlan, noun: str) -> list[tuple[str, ...]]:
          [("small",), ("large",), ()]),
         ("Put the metal spoon in the cup and the wooden spoon in the jar.", "spoon", [("metal",), ("wooden",)]),
         ("The dirty mug is beside the clean mug.", "mug", [("dirty",), ("clean",)]),
+        ("The clean plate is on a shelf and the dirty one in the sink.", "plate", [("clean",), ("dirty",)]),
+        ("Two clean cups and a dirty one are on a tray. The dirty one is red.", "cup",
+         [("clean",), ("clean",), ("red", "dirty")]),
+        ("A tray holds a white cup, a tall one and a short one.", "cup", [("white",), ("tall",), ("short",)]),
+        ("On a tray are a bowl and a smaller one.", "bowl", [(), ("smaller",)]),
+        ("A desk with two lamps, a wooden one and a metal one.", "desk", [()]),
         ("There is a wooden spoon. The spoon is in a cup.", "spoon", [("wooden",)]),
         ("A long spoon is in a jar. The spoon is red.", "spoon", [("red", "long")]),
     ],
@@ -39,6 +45,11 @@ def test_members_of_a_kind(planner: GrammarPlanner, prompt: str, noun: str, expe
     plan = planner.plan(prompt)
     assert told(plan, noun) == expected
     assert not any(start in note for note in plan.notes for start in ("counted otherwise", "not understood"))
+
+
+def test_what_is_on_it_is_on_what_the_sentence_is_about(planner: GrammarPlanner):
+    plan = planner.plan("On the desk is a large box, and a small one stands on top of it.")
+    assert [(rel.child, rel.parent) for rel in plan.relations] == [("large box", "desk"), ("small box", "large box")]
 
 
 def test_two_names_of_one_sentence_are_two_things(planner: GrammarPlanner):
@@ -127,3 +138,39 @@ def test_what_is_said_of_everything_is_said_of_each(planner: GrammarPlanner):
     assert {obj.colours for obj in plan.objects if obj.name != "tray"} == {("green",)}
     assert len(plan.relations) == 4
     assert not plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "count"),
+    [
+        ("Put two of the four figs in the cup and the rest in the bowl.", "fig", 4),
+        ("Three of the four mugs on the tray are red.", "mug", 4),
+        ("Place one pear in the jar and the other in the cup.", "pear", 2),
+        ("Three jars are on a shelf. Pick up a jar.", "jar", 3),
+        ("Two bowls are on a table. A spoon is in a bowl.", "bowl", 2),
+        ("The mugs are upside down. There are four mugs on the tray.", "mug", 4),
+        ("On each side of the sofa stands a side table with a lamp.", "lamp", 2),
+        ("A salt and a pepper shaker are on a tray.", "salt shaker", 2),
+        ("A tray holds four cups (red, blue, white, green). Put the blue cup and the green cup in the box.", "cup", 4),
+    ],
+)
+def test_members_of_what_was_named(planner: GrammarPlanner, prompt: str, noun: str, count: int):
+    plan = planner.plan(prompt)
+    assert sum(obj.noun == noun for obj in plan.objects) == count
+    assert not any("counted otherwise" in note for note in plan.notes)
+
+
+def test_the_rest_are_moved_where_the_rest_are_said_to_go(planner: GrammarPlanner):
+    notes = " ".join(planner.plan("Put two of the four figs in the cup and the rest in the bowl.").notes)
+    assert "place:fig 1:cup, place:fig 2:cup, place:fig 3:bowl, place:fig 4:bowl" in notes
+
+
+def test_what_has_its_colour_keeps_it_when_it_is_sorted(planner: GrammarPlanner):
+    plan = planner.plan(
+        "Two red and two blue cubes and two boxes are on a mat. Sort the cubes by color into the boxes."
+    )
+    assert [obj.colours for obj in plan.objects if obj.noun == "cube"] == [("red",)] * 2 + [("blue",)] * 2
+
+
+def test_a_colour_like_that_of_others_is_noted(planner: GrammarPlanner):
+    assert any("same color" in note for note in planner.plan("Each of two trays holds a cup of the same color.").notes)

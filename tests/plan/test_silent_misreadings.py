@@ -18,6 +18,8 @@ PLANNER = GrammarPlanner()
          {"spoon left_of plate", "fork right_of plate", "mug in_front_of fork"}),
         ("a backpack with a doll on top", {"doll on backpack"}),
         ("Put a single apple and pear from the basket onto the plate.", {"apple in basket", "pear in basket"}),
+        ("The ball is out of the basket.", {"ball next_to basket"}),
+        ("Move the jug from the foot of the lamp to the tray.", {"jug next_to lamp"}),
         ("A cup is on the table and a plate is near the lamp.", {"cup on table", "plate next_to lamp"}),
     ],
 )  # fmt: skip
@@ -42,6 +44,11 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
         ("Stack the three bowls, the green one at the bottom, the red one on top.",
          'not modelled: "Stack the three bowls, the green one at the bottom, the red one on top": no task does that.'),
+        ("A lamp is over a table.", 'not arranged: "A lamp" over "a table"; it is placed on it'),
+        ("The tower with three bricks has a red brick at the top.",
+         'counted otherwise: "three bricks"; 4 are stacked'),
+        ("A caramel-colored jug.", 'not modelled: "caramel-colored" of "A caramel-colored jug"'),
+        ("A flock of sheep.", '"A flock of sheep": 3 assumed.'),
         ("A coffee cup with latte art.", '"latte art" is made as a "sculpture"'),
     ],
 )  # fmt: skip
@@ -124,3 +131,16 @@ def test_some_of_what_something_has_stands_on_the_floor(prompt: str, carried: in
 def test_in_front_of_what_carries_the_rest_is_said_to_be_read_so():
     notes = PLANNER.plan("A crate with six lemons, two of them in front.").notes
     assert '"in front" is read as said of "A crate".' in notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("A tray on a desk with a plum on it.", {"tray on desk", "plum on tray"}),
+        ("There is a chessboard on the desk with a king on it.", {"chessboard on desk", "chess king on chessboard"}),
+        ("A lamp on a desk with a book on it.", {"lamp on desk", "book on desk"}),
+        ("A mug next to a plate with a bun on it.", {"mug next_to plate", "bun on plate"}),
+    ],
+)
+def test_what_is_on_it_is_on_the_dish_that_is_told_of(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations

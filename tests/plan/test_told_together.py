@@ -38,7 +38,9 @@ def _tasks(plan: ScenePlan) -> list[str]:
         ("Put the jar in the box, and also the mug.", ["place:jar:box", "place:mug:box"]),
         ("Put the three mugs on the three plates.",
          ["place:mug 1:plate 1", "place:mug 2:plate 2", "place:mug 3:plate 3"]),
+        ("Put the jar in the box and the mug as well.", ["place:jar:box", "place:mug:box"]),
         ("Take the jar to the desk.", ["place:jar:desk"]),
+        ("Take the jar next to the clock.", ["pick:jar"]),
         ("A jar and a mug are on the desk. Put everything in the box.", ["place:jar:box", "place:mug:box"]),
         ("A jar is on the desk. A mug is on the shelf. Move everything from the desk to the box.", ["place:jar:box"]),
         ("Put the mug on the lower rack of the dishwasher.", ["place:mug:dishwasher"]),
@@ -59,6 +61,10 @@ def test_everything_that_is_to_be_moved_has_its_task(prompt: str, tasks: list[st
     [
         ("A jar and a mug are on the desk. A ruler is next to them.",
          {"jar on desk", "mug on desk", "ruler on desk", "ruler next_to jar", "ruler next_to mug"}),
+        ("A crate and a basket are on a bench. Each contains a lemon.",
+         {"crate on bench", "basket on bench", "lemon 1 in crate", "lemon 2 in basket"}),
+        ("A red crate and a blue crate are on a bench. The red crate is on the left.",
+         {"red crate on bench", "blue crate on bench", "red crate left_of blue crate"}),
         ("There is a jar. There is a mug. They stand on a desk.", {"jar on desk", "mug on desk"}),
         ("A jar and a can are on a shelf. They are next to each other.",
          {"jar on shelf", "can on shelf", "can next_to jar"}),
@@ -69,6 +75,8 @@ def test_everything_that_is_to_be_moved_has_its_task(prompt: str, tasks: list[st
         ("On the desk, behind the clock, stands a jar.", {"clock on desk", "jar on desk", "jar behind clock"}),
         ("On the shelf to the right of the radio there is a jar.",
          {"radio on shelf", "jar on shelf", "jar right_of radio"}),
+        ("On top of the crate, next to the ball, is a jar.", {"ball on crate", "jar on crate", "jar next_to ball"}),
+        ("A jar and a can stand on a desk.", {"jar on desk", "can on desk"}),
         ("A jar is on the desk next to the clock.", {"clock on desk", "jar on desk", "jar next_to clock"}),
         ("On the rug next to the bed stands a chair.", {"rug next_to bed", "chair on rug"}),
         ("A plate with a muffin and a mug beside it.", {"muffin on plate", "mug next_to plate"}),
@@ -101,6 +109,7 @@ def test_plain_places_are_read_without_a_note(prompt: str, relations: set[str]):
     ("prompt", "described"),
     [
         ("A jar and a mug are on the desk. They are green.", ["green jar", "green mug", "desk"]),
+        ("A jar and a mug are on the desk. They are both green.", ["green jar", "green mug", "desk"]),
         ("A jar and a mug are on the desk. Both are green.", ["green jar", "green mug", "desk"]),
         ("A desk has two chairs. They are green.", ["desk", "green chair 1", "green chair 2"]),
         ("A jar is on the desk. It is green.", ["green jar", "desk"]),
@@ -134,6 +143,18 @@ def test_what_is_only_done_later_or_with_something_is_not_there_before(prompt: s
     plan = PLANNER.plan(prompt)
     assert not plan.relations
     assert plan.notes
+
+
+def test_what_follows_a_deed_that_is_left_out_gives_no_relation():
+    plan = PLANNER.plan("A dog is trying to play with a cat that is on a sofa.")
+    assert _relations(plan) == {"cat on sofa"}
+    assert 'not modelled: "trying to play"' in plan.notes
+
+
+def test_a_place_that_may_be_of_two_things_is_told_for_both():
+    plan = PLANNER.plan("On the tray between the two mugs is a spoon.")
+    assert plan.otherwise
+    assert "The spoon is between the two mugs" in plan.otherwise
 
 
 def test_a_figure_holds_nothing_and_a_note_says_so():

@@ -44,6 +44,7 @@ def planner() -> GrammarPlanner:
         ),
         ("A stack of four cubes in the colors of the rainbow.", "A stack of four rainbow cubes."),
         ("Three trays carried three mugs.", "Three trays carry three mugs."),
+        ("Put all the mugs but the red one in the sink.", "There is a red mug. Put all the other mugs in the sink."),
         ("Row 1: red mug, blue mug.", "A red mug and a blue mug are in a row."),
         (
             "The front row has two jars and the back row three mugs.",
@@ -88,6 +89,8 @@ def test_both_give_one_scene(planner: GrammarPlanner, sentence: str, same: str):
         ("A tablet lies on a desk. The screen shows a spreadsheet.", "The screen shows a spreadsheet"),
         ("One boot is under the chair, the other nowhere to be seen.", "the other nowhere to be seen"),
         ("A crate, upside-down, serving as a stool.", "serving as a stool"),
+        ("A tray holding, among other things, a mug and a spoon.", "among other things"),
+        ("A fork lies on a napkin folded into a triangle.", "folded into a triangle"),
         ("A ladder taller than the shelf next to it.", "taller than"),
         ("A notebook with a name printed on it.", "with a name printed on it"),
         ("Two red bricks stand parallel to each other with a gap between them.", "with a gap between them"),

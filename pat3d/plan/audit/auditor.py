@@ -15,7 +15,17 @@ from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.members import shares
-from pat3d.plan.audit.numbers import choices, had_by_each, listed_colours, numbers, rows, shared_colours, sizes, storeys
+from pat3d.plan.audit.numbers import (
+    choices,
+    had_by_each,
+    heights,
+    listed_colours,
+    numbers,
+    rows,
+    shared_colours,
+    sizes,
+    storeys,
+)
 from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
@@ -190,7 +200,15 @@ class _Auditor(Compared):
             *without(self),
         ]
         made += [*requests(self), *shares(self), *chained(self)]
-        made += [*confused(self), *numbers(self), *rows(self), *choices(self), *sizes(self), *storeys(self)]
+        made += [
+            *confused(self),
+            *numbers(self),
+            *rows(self),
+            *choices(self),
+            *sizes(self),
+            *storeys(self),
+            *heights(self),
+        ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)
         for claim in self.said.claims:
@@ -256,7 +274,13 @@ class _Auditor(Compared):
                 or any(self.named(said) for said in (noun, *(mention.text for mention in mentions)))
             ):
                 continue
-            least = sum(mention.number or 1 for mention in mentions if mention.new)
+            texts = {text for mention in mentions for text in (mention.text, *singulars(mention.text))}
+            said = sum(obj.noun == noun and any(text in obj.phrase.lower() for text in texts)
+                       for obj in self.plan.objects)  # fmt: skip
+            counts |= {said} - {0}
+            least = sum(
+                mention.number or 1 for mention in mentions if mention.new and not self._one_of(mention, mentions)
+            )
             least = max(least, *(mention.number or 1 for mention in mentions))
             placed = {claim.at for claim in self.said.claims}
             leads = [{one.lead for one in mentions[:at]} for at in range(len(mentions))]
@@ -283,6 +307,11 @@ class _Auditor(Compared):
             if not any(least <= count and (endless or count <= most) for count in counts):
                 made.append((mentions[-1].start, f'counted otherwise: "{text}", of which there are {min(counts)}'))
         return made
+
+    @staticmethod
+    def _one_of(mention: Mention, mentions: Sequence[Mention]) -> bool:
+        """Whether "a cup" may be one of those that a sentence before has named: the plan says where it is not."""
+        return mention.number == 1 and any(other.plural and other.part < mention.part for other in mentions)
 
     def _listed(self, mention: Mention) -> bool:
         """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""

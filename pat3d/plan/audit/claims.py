@@ -39,7 +39,12 @@ def broken(it: Compared, claim: Claim) -> str | None:
 def whose_of(it: Compared, claim: Claim) -> set[str]:
     """The objects that `claim` can only be said of: of several names, those of which there are several objects."""
     named = [[obj.name for obj in it.which(mention)] for mention in claim.whose]
-    several = [names for names in named if len(names) > 1] or named
+    several = [names for names in named if len(names) > 1]
+    below = {below for names in named for name in names for below in it.above(name)}
+    if claim.whole and not several and len(named) > 1:
+        # "A box and a can are on a desk. Each holds a nut.": the box and the can.
+        return {name for names in named for name in names} - below
+    several = several or named
     return set(several[-1] if claim.whole and several else (name for names in several for name in names))
 
 

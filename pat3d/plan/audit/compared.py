@@ -102,6 +102,7 @@ class Compared:
             obj for obj in self.plan.objects
             if obj.noun == mention.noun
             or any(re.search(rf"\b{re.escape(word)}\b", obj.phrase.lower()) for word in words)
+            or (mention.text in {one for word in obj.phrase.lower().split() for one in singulars(word)})
             or (not mention.new and heads & {obj.noun.split()[-1], obj.name.rstrip(" 0123456789").split()[-1]})
         ]  # fmt: skip
 

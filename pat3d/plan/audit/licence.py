@@ -176,8 +176,8 @@ def _said_at(it: Compared, child: str, kind: str, parent: str) -> bool:
         owner = [mention for mention in it.said.mentions if mention.end == claim.at]
         if claim.place == "with" and owner and not claim.whose:
             above = _names(it, owner)
-        taken = claim.place == "far" and bool(it.tasks.strip())
-        kinds = ("on", "in") if claim.place == "with" or taken else it.kinds(claim)
+        taken = claim.place in ("far", "from") and bool(it.tasks.strip() or it.undone)
+        kinds = ("on", "in", *(("next_to",) if taken else ())) if claim.place == "with" or taken else it.kinds(claim)
         if kind in kinds and parent in below and child in above:
             return True
     had = [claim.end for claim in it.said.claims if claim.place in ("with", "holding")]

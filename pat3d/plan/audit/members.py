@@ -87,7 +87,9 @@ def _owner(it: Compared, at: int) -> tuple[Mention | None, int]:
     if {"other", "remaining"} & {*words[max(owner.first - 2, 0) : owner.start]}:
         return owner, owner.number or 0
     several = {"both", "all"} & {*words[max(owner.first - 2, 0) : owner.start]} or (owner.number or 0) > 1
-    return owner, len(it.which(owner)) if several else 0
+    there = len(it.which(owner))
+    # "One of three bowls holds a lime, the other two bowls hold an egg."
+    return owner, min(there, owner.number or there) if several else 0
 
 
 def _the_rest(it: Compared) -> Iterator[tuple[int, str]]:

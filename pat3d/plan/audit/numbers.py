@@ -34,6 +34,7 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _dozens(it)
     yield from _as_many(it)
     yield from _in_brackets(it)
+    yield from _alike(it)
     yield from _of_one(it)
     yield from _stacked(it)
     yield from _partly(it)
@@ -289,6 +290,18 @@ def _in_brackets(it: Compared) -> Iterator[tuple[int, str]]:
             yield at, f'counted otherwise: "{" ".join(words[said:at])}", of which {len(listed)} are listed'
 
 
+def _alike(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things that are to have the colour of others, and of which none has one."""
+    words = it.said.words
+    for at in range(2, len(words)):
+        said = words[at - 1 : at + 1] if words[at] in ("color", "colour") else []
+        own = [mention for mention in it.said.mentions if mention.end <= at - 1][-1:]
+        if said[:1] not in (["same"], ["matching"]) or not own or it.named(" ".join(said)):
+            continue
+        if not any(obj.colours for obj in it.which(own[0])):
+            yield at, f'not modelled: "{" ".join(said)}" of "{own[0].text}"'
+
+
 def _of_one(it: Compared) -> Iterator[tuple[int, str]]:
     """Some of what is one object in the plan: "flowers, one of which lies beside the vase"."""
     words = it.said.words
@@ -361,3 +374,19 @@ def storeys(it: Compared) -> Iterator[tuple[int, str]]:
             wrong = {"top": above > 0, "middle": bool(below) != bool(above)}.get(word, below > 0)
             if below + above > 0 and wrong:
                 yield at, f'not as said: "the {word} one {colour}"'
+
+
+def heights(it: Compared) -> Iterator[tuple[int, str]]:
+    """How many a tower is of, where the plan stacks more: "a tower of four cubes has a red cube on top"."""
+    words = it.said.words
+    for mention in it.said.mentions:
+        lead = words[max(mention.first - 4, 0) : mention.first]
+        if mention.number is None or mention.number < 2 or not {"tower", "stack", "pile"} & {*lead}:
+            continue
+        alike = [obj.name for obj in it.plan.objects if obj.noun == mention.noun]
+        tallest = max((sum(below in alike for below in it.above(name)) + 1 for name in alike), default=0)
+        behind = [one.start for one in it.said.mentions if one.noun == mention.noun and one.start >= mention.end]
+        added = behind and not {"has", "have", "."} & {*words[mention.end : behind[0]]}
+        if tallest > mention.number and not added and not it.named(mention.text):
+            said = " ".join(words[mention.first : mention.end])
+            yield mention.start, f'counted otherwise: "{said}"; {tallest} are stacked'

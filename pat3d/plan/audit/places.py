@@ -25,6 +25,7 @@ from pat3d.plan.audit.words import (
     LEADING,
     NUMBERS,
     OPENING,
+    ORDINALS,
     PARTS,
     PRONOUNS,
     SPLITTING,
@@ -170,8 +171,21 @@ def others(it: Compared) -> Iterator[tuple[int, str]]:
         named = ones[-1:] if word in ("other", "others") and ones else before
         kinds = [{_called(obj) for obj in it.which(mention)} for mention in named]
         likes = [[obj for obj in it.plan.objects if _called(obj) in names] for names in kinds]
+        if word in ORDINALS and _listed_first(it) >= least:
+            # "A cup and a bowl: the second is red"
+            continue
         if named and max(map(len, likes)) < least and not re.search(rf"\b{word}\b", it.quoted):
             yield at, f'not as said: "{" ".join(words[max(at - 1, 0) : at + 1])}"; there is one "{named[-1].text}"'
+
+
+def _listed_first(it: Compared) -> int:
+    """How many single things the sentence begins with, joined to a list."""
+    count = 0
+    for before, mention in pairwise(it.said.mentions):
+        if mention.plural or before.plural or not set(it.said.words[before.end : mention.first]) <= {",", "and"}:
+            break
+        count += 1
+    return count + 1
 
 
 def _called(obj: PlannedObject) -> str:

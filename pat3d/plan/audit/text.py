@@ -14,6 +14,7 @@ from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.words import (
     ADJECTIVES,
+    ALIKE_IN_PLURAL,
     ARTICLES,
     BREAKING,
     ENDING,
@@ -47,6 +48,8 @@ _RAINBOW = r"\bin (?:all )?(?:the )?(?:rainbow colou?rs|colou?rs of the rainbow)
 _STOP = re.compile(r"[.;!?\n]+")
 _LONGEST_NAME = 4
 _HEADS = PRONOUNS | {"another", "other"}
+_SINGULAR_VERB = ([], ["is"], ["was"], ["in"], ["on"], ["next"], ["beside"], ["."], [","])
+"""What follows "stands" where it is a verb."""
 _ONE = frozenset({"one", "another"})
 _KNOWN = frozenset({"the", "these", "those", "both", "all", "other"})
 """Words before what was named already: "the other two cups"."""
@@ -143,6 +146,7 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\bnot far (?:away )?from\b", "near", prompt)
     prompt = re.sub(r"\bthere (?:appear|seem|happen)s? to be\b", "there is", prompt)
     prompt = re.sub(r"\breach for\b", "take", prompt)
+    prompt = re.sub(r"\b(is|are|was|were) out of\b", r"\1 outside", prompt)
     prompt = re.sub(_RAINBOW, "", prompt)
     prompt = re.sub(rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", "", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
@@ -198,6 +202,9 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
             )
             if size == 1 and (_unsure(words, at) or _hue(words, at) or whole[0] in SHADES or formed):
                 continue
+            if size > 1 and whole[-1] == "stands" and words[at + size : at + size + 1] in _SINGULAR_VERB:
+                # "The cup in which the pen stands is red"
+                continue
             name = find(" ".join(whole))
             single = [found for one in singulars(whole[-1]) if (found := find(" ".join([*whole[:-1], one])))]
             if name or single:
@@ -235,10 +242,15 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if words[end : end + 1] == ["("] and words[end + 2 : end + 3] == [")"]:
+        # "plates (4)"
+        said = words[end + 1]
+        number = int(said) if said.isdecimal() and len(said) < 4 else NUMBERS.get(said, number)
     if number == 1 and plural and noun not in SINGLE and singulars(words[end - 1]) and "one" in lead:
         # "the left one pencils": the pencils of the left one.
         number = None
-    if _elliptic(words, ahead) or SOME & lead:
+    gathered = words[end - 1] in ALIKE_IN_PLURAL and number in (None, 1) and "of" in words[max(start - 2, 0) : start]
+    if _elliptic(words, ahead) or SOME & lead or gathered:
         number, plural = None, True
     return Mention(
         start=start, end=end, first=min(ahead, default=start), text=" ".join(words[start:end]), noun=noun,

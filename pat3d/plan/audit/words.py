@@ -45,6 +45,8 @@ ARTICLES = frozenset({
     "a", "an", "the", "this", "that", "these", "those", "another", "each", "every", "some", "any", "all", "both",
     "its", "their", "my", "your", "his", "her", "our", "no", *NUMBERS,
 })  # fmt: skip
+ALIKE_IN_PLURAL = frozenset({"sheep", "fish", "deer"})
+"""Nouns of which the plural is no other word."""
 PRONOUNS = frozenset({"it", "them", "which", "each", "one", "that", "both", "him", "her", "this"})
 ORDINALS = frozenset({"second", "third", "fourth", "fifth"})
 HEADLESS = ORDINALS | frozenset({
@@ -168,7 +170,7 @@ def _relations() -> dict[tuple[str, ...], Place]:
         "beside": ("on one side of", "on the other side of", "at one end of", "on each side of", "on either side of",
                    "on both sides of", "beside", "next to", "near to", "near", "by",
                    "close to", "closest to", "nearest to", "opposite", "among", "outside", "alongside",
-                   "adjacent to", "along"),
+                   "adjacent to", "along", "from the base of", "from the foot of", "from beside", "from next to"),
         "against": ("against",),
         "its left": ("to its left", "on its left"),
         "its right": ("to its right", "on its right"),
@@ -244,6 +246,7 @@ moved returned brought carried unload empty organize sort select identify remove
 bring drop add give turn complete
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
 robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
+arrange load collect toss gather sweep shove nudge deposit stow stash dump cover seal
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import is_modifier
@@ -30,7 +31,7 @@ _SURROUNDING = frozenset({
 
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
-    whole = _some_of(_any_of(_rounded(_of_whole(tokens), nouns)))
+    whole = _some_of(_one_of_two(_any_of(_rounded(_of_whole(tokens), nouns)), nouns))
     return _of_each(_equal(_multiples(_shares(_on_sides(whole), nouns), nouns), nouns), nouns)
 
 
@@ -193,11 +194,25 @@ def _some_of(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "four of the ten cups are red, the others blue" as "ten cups: four of them are red, ..."."""
     words = [token.text for token in tokens]
     opens = words[1:3] == ["of", "the"] and 0 < (_value(words[0]) or words[0] == "one") < _value(words[3])
-    end = next((at for at in range(4, len(words)) if tokens[at].mark or words[at] in FINITE or link_at(tokens, at)), 0)
+    end = next((at for at in range(4, len(words)) if tokens[at].mark or words[at] in FINITE), 0)
     if not opens or words[end] not in FINITE:
         return list(tokens)
     colon, them = replace(tokens[0], text=":", mark=True), replace(tokens[2], text="them")
     return [*tokens[2:end], colon, *tokens[:2], them, *tokens[end:]]
+
+
+def _one_of_two(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "put one fig in a bowl and the other in a box" as "put one of the two figs in a bowl and ..."."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        found = nouns.match([words[at + 1]]) if words[at] == "one" and known_verb(words[at - 1]) else None
+        others = [n for n in range(at + 3, len(words) - 1) if words[n - 1 : n + 1] == ["the", "other"]]
+        if found is None or found.plural or not others or not link_at(tokens, others[0] + 1):
+            continue
+        of_two = [replace(tokens[at], text=text) for text in ("of", "the", "two")]
+        several = replace(tokens[at + 1], text=f"{words[at + 1]}s")
+        return [*tokens[: at + 1], *of_two, several, *tokens[at + 2 :]]
+    return list(tokens)
 
 
 def _of_whole(tokens: Sequence[Token]) -> list[Token]:

@@ -193,10 +193,20 @@ def _holds(world: World, each: Arranged) -> bool:
     if each.kind in ("leaning_against", "under") and (len(supports) > 1 or kinds - {"on"}):
         return False
     over = each.kind != "under" or world.is_a(each.of[0], lexicon.OVERHANGING)
-    if not over and not covers.stands_over(world, each.of[0], each.items[0]):
+    if not over and not covers.stands_over(world, each.of[0], each.items):
+        return False
+    if not _moved_apart(world, everything):
         return False
     within = len(supports) == 1 and "in" in kinds
     return not within and not any(everything & set(world.ancestors(item)) for item in everything)
+
+
+def _moved_apart(world: World, items: set[Item]) -> bool:
+    """Whether on the surface that `items` have in common each of them is, or is on, a thing of its own."""
+    chains = [[item, *world.ancestors(item)] for item in items]
+    shared = next((one for one in chains[0] if all(one in chain for chain in chains)), None)
+    moved = {chain[-1] if shared is None else chain[max(chain.index(shared) - 1, 0)] for chain in chains}
+    return len(moved) == len(chains)
 
 
 def _spans(world: World, each: Arranged) -> bool:

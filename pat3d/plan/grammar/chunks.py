@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from pat3d.errors import PromptError
@@ -142,3 +142,17 @@ class Cursor:
         self._at += size
         while self._made.chunks and self._made.chunks[-1].kind == "joint" and self._at >= self._end:
             self._made.chunks.pop()
+
+
+def trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:
+    """`chunks` without joints at either end or in a row."""
+    made: list[Chunk] = []
+    for chunk in chunks:
+        if chunk.kind in ("joint", "clause") and (not made or made[-1].kind in ("joint", "clause")):
+            if made and chunk.kind == "joint" and made[-1].kind == "joint" and "and" in chunk.text:
+                made[-1] = replace(made[-1], text=", and")
+            continue
+        made.append(chunk)
+    while made and made[-1].kind in ("joint", "clause"):
+        made.pop()
+    return made

@@ -11,15 +11,11 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
-from pat3d.plan.grammar.links import LINKS
-from pat3d.plan.grammar.outcomes import TAKING, brought, put_back, together
+from pat3d.plan.grammar.outcomes import TAKING, brought, closed, put_back, together
 from pat3d.plan.grammar.unmade import base_verb
-from pat3d.scene.relations import SUPPORT_KINDS
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
-_PUTTING = frozenset({"put", "place", "set", "lay", "move", "drop", "add", "insert", "throw", "toss", "stack", "bring",
-    "transfer", "load", "pack"})  # fmt: skip
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
 _DOING = frozenset({"put", "place", "stack", "move", "pick", "take", "set", "pour", "open", "close", "grasp", "push"})
@@ -34,8 +30,8 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _swapped(brought(put_back(together(_in_full(tokens)))))
-    return _handed(_further(_fronted(_sideways(_ordered(_told_once(_lined_up(told)))))))
+    told = _swapped(brought(put_back(together(closed(_in_full(tokens))))))
+    return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(told))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -81,8 +77,10 @@ def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "open the pot by lifting the lid and turning it" as "open the pot, lift the lid and turn it"."""
     words = [token.text for token in tokens]
     by = words.index("by") if "by" in words else 0
+    if by < 3:
+        return tokens
     verb = by + 1 + (words[by + 1].endswith("ly"))
-    gerund = by > 2 and words[verb].endswith("ing") and base_verb(words[verb])
+    gerund = words[verb].endswith("ing") and base_verb(words[verb])
     asked = base_verb(words[0]) == words[0] and words[1] in lexicon.DETERMINERS and words[0] not in ("build", "make")
     if not gerund or not asked or link_at(tokens, verb):
         return tokens
@@ -182,41 +180,6 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
     if not verb or words[verb + 1] not in lexicon.DETERMINERS or lexicon.COPULAS & set(words[:verb]):
         return tokens
     return [*tokens[verb:mark], *tokens[:verb], *tokens[mark:]]
-
-
-def _further(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "put the cup on the tray, then the bowl" as "..., then put the bowl on the tray"."""
-    verb = next((token for token in tokens[:4] if token.text in _PUTTING), None)
-    made, start, goal = list[Token](), 0, list[Token]()
-    for at, token in enumerate(tokens):
-        made.append(token)
-        if verb is None or token.text not in ("then", "also") or at < 4:
-            continue
-        end = at - (tokens[at - 1].text == "and")
-        end -= tokens[end - 1].text == ","
-        goal = _goal_of(tokens[start:end]) or goal
-        stop = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark or tokens[n].text in ("and", "then"))
-        bare = not any(link_at(tokens, n) for n in range(at + 1, stop))
-        if goal and bare and stop > at + 2 and tokens[at + 1].text in lexicon.DETERMINERS:
-            if token.text == "also":
-                made.pop()
-            again = replace(verb, number=tokens[at + 1].number, start=tokens[at + 1].start, end=tokens[at + 1].start)
-            rest = _further([verb, *tokens[at + 1 : stop], *goal, *tokens[stop:]])
-            return [*made, again, *rest[1:]]
-        start = at + 1
-    return made
-
-
-def _goal_of(tokens: Sequence[Token]) -> list[Token]:
-    """The words of `tokens` that tell where something is put, of known things: "on the tray" of "a cup on a tray"."""
-    for at in range(len(tokens) - 2, 0, -1):
-        link = LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
-        if link is None or link.inverse or link.manner == "source" or link.kind not in SUPPORT_KINDS:
-            continue
-        if at and link_at(tokens, at - 1) > 1:
-            continue
-        return [replace(token, text="the") if token.text in ("a", "an") else token for token in tokens[at:]]
-    return []
 
 
 def _handed(tokens: Sequence[Token]) -> list[Token]:

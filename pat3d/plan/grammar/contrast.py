@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.matching import line_up, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
+from pat3d.plan.grammar.objects import tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
@@ -42,6 +44,52 @@ class Contrast(Pronouns):
         part = names & (lexicon.STORAGE_PARTS | lexicon.DETACHED | lexicon.DRAWERS) or phrase.part or group.phrase.part
         renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
         return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
+
+    @staticmethod
+    def _told_by_size(items: list[Item], phrase: Phrase) -> list[Item]:
+        """The one of `items` that is "the small box", or "the tallest box"; all where `phrase` gives no size."""
+        words = measured(phrase.modifiers)
+        shape = {*words.adjectives} & SHAPES
+        if not words.size_word and not shape:
+            return items
+        own = items[0].group.modifiers
+        own_size = words.size_word if words.size_word else next(iter(shape))
+        if own_size in (own.size_word, *own.adjectives):
+            return items
+        told = [item for item in items if own_size in (item.told.size_word, *item.told.adjectives)]
+        free = [item for item in items if not item.told.size_word and not {*item.told.adjectives} & SHAPES]
+        for item in () if told else free[:1]:
+            tell(item, words)
+            item.told = replace(item.told, adjectives=(*item.told.adjectives, *shape))
+        return told[:1] or free[:1] or items
+
+    def _any_of(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """One of several that a sentence before has named, where "a box" is what something is in, or is to be moved."""
+        plain = phrase.modifiers == NO_MODIFIERS == phrase.superlative and phrase.words.lower().startswith(
+            ("a ", "an ")
+        )
+        if (
+            not plain
+            or phrase.plural
+            or phrase.definite
+            or phrase.count not in (None, 1)
+            or phrase.cycle
+            or phrase.part
+        ):
+            return None
+        named = self._world.groups[: self._world.settled]
+        likes = [group for group in named if group.noun == phrase.noun and group.said == phrase.said]
+        likes = [group for group in likes if len(group.items) > 1 and not group.replaced and group.height == 1]
+        child = any(at in one for one, _ in self.related)
+        parent = any(at in other for _, other in self.related)
+        if not likes or not (self.asked or (parent and not child)):
+            return None
+        among = {head for one, other in self.related if at in other for head in one}
+        if any(self._chunks[head].named.each for head in among):
+            # "Each ball is in a box": every one in its own.
+            several = {len(self.known.get(head, ())) for head in among}
+            return list(likes[-1].items) if several == {len(likes[-1].items)} else None
+        return likes[-1].items[:1]
 
     def _elsewhere(self, at: int, group: Group) -> bool:
         """Whether `group` was told by another place than chunk `at`: "the cup on the tray, the cup on the mat"."""
@@ -115,6 +163,18 @@ class Contrast(Pronouns):
         pair = [self.known.get(head, []) for head in (at - 4, at - 2)]
         joined = at > 3 and self._chunks[at - 3].kind == "joint" and "and" in self._chunks[at - 3].text
         return [items[0] for items in pair] if joined and [len(items) for items in pair] == [1, 1] else []
+
+    def _enumerated(self, at: int) -> list[Item]:
+        """The single things that the sentence before chunk `at`, or the one before it, begins with in a list."""
+        heads: list[int] = []
+        for n, piece in enumerate(self._chunks[:at]):
+            if piece.kind not in ("noun", "joint", "there"):
+                break
+            heads += [n] * (piece.kind == "noun")
+        named = [self.known.get(head, []) for head in heads]
+        if len(named) > 1 and all(len(items) == 1 for items in named):
+            return [items[0] for items in named]
+        return list(self._world.together) if len(named) < 2 else []
 
     def _before(self, at: int) -> list[Item]:
         """What the clause that chunk `at` belongs to begins with."""

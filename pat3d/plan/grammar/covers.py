@@ -5,8 +5,6 @@ Whether something fits is judged by the outer sizes that the catalogue ships: wa
 
 from __future__ import annotations
 
-import math
-
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.modifiers import read_modifiers
 from pat3d.plan.grammar.postures import is_held, kind_of, token_text
@@ -15,12 +13,14 @@ from pat3d.plan.grammar.world import Edge, Item, World
 
 _HIGH = 0.75
 """Height of what fits over the vessel's."""
-_WIDE, _NARROW = 0.65, 0.5
-"""Diagonal of what fits, seen from above, over the vessel's smaller side."""
+_WIDE = 0.56
+"""Longer side of what fits, seen from above, over the vessel's smaller side; of several, all side by side."""
 
 
-def may_cover(world: World, vessel: Item, item: Item) -> bool:
+def may_cover(world: World, vessel: Item, item: Item, *, beside: int = 1) -> bool:
     """Whether `vessel` may be upside down over `item`: it is open, the other has room in it, and nothing else is said.
+
+    There are `beside` like it side by side.
 
     What has another size than the catalogue's is taken for its like.
     """
@@ -32,15 +32,13 @@ def may_cover(world: World, vessel: Item, item: Item) -> bool:
     if len(outer) != 3 or len(inner) != 3:
         return False
     ratio = _ratio(item) / _ratio(vessel)
-    share = _NARROW if world.is_a(vessel, lexicon.NARROW) else _WIDE
-    low = inner[2] * ratio <= _HIGH * outer[2]
-    return low and math.hypot(*inner[:2]) * ratio <= share * min(outer[:2])
+    return inner[2] * ratio <= _HIGH * outer[2] and beside * max(inner[:2]) * ratio <= _WIDE * min(outer[:2])
 
 
-def stands_over(world: World, vessel: Item, item: Item) -> bool:
-    """Whether `vessel` covers `item`, which is under it; it is upside down then."""
-    free = all(edge.parent is not vessel or edge.child is item for edge in world.supports.values())
-    if not free or not may_cover(world, vessel, item):
+def stands_over(world: World, vessel: Item, items: list[Item]) -> bool:
+    """Whether `vessel` covers `items`, which are under it; it is upside down then."""
+    free = all(edge.parent is not vessel or edge.child in items for edge in world.supports.values())
+    if not free or not all(may_cover(world, vessel, item, beside=len(items)) for item in items):
         return False
     _turn_over(vessel)
     return True
@@ -65,12 +63,20 @@ def settle(world: World) -> None:
             continue
         _stand_beside(world, child, below)
         said = f'"{child.group.words}" over "{below.group.words}"'
-        if not several and may_cover(world, child, below):
+        things = _said_under(world, child, below)
+        if not several and all(may_cover(world, child, one, beside=len(things)) for one in things):
             _turn_over(child)
-            world.arrange("under", [below], [child], said)
+            world.arrange("under", things, [child], said)
         else:
             world.note(f"not arranged: {said}; it is placed next to it")
             world.beside([child], "next_to", [below])
+
+
+def _said_under(world: World, vessel: Item, below: Item) -> list[Item]:
+    """`below`, with what is said to be under `vessel` along with it; that it is on these is no longer held."""
+    said = [each for each in world.arranged if each.kind == "under" and each.of == [vessel] and below in each.items]
+    world.arranged = [each for each in world.arranged if each not in said]
+    return list(dict.fromkeys(item for each in said for item in each.items)) or [below]
 
 
 def _together(world: World, child: Item, below: Item) -> bool:

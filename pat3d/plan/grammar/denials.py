@@ -25,7 +25,7 @@ _NO = frozenset({"neither", "none"})
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of, _missing):
+    for told in (_condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of, _missing, _among):
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
@@ -173,3 +173,12 @@ def _missing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     if not start or nouns.match(inside[-1:]) or words[at + 1 : at + 3] != ["to", "be"]:
         return None
     return [*tokens[:start], *tokens[end:]], [(tokens[start + 1], tokens[end - 1])]
+
+
+def _among(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a shelf holding, among other things, a clock" without the other things."""
+    for at in range(1, len(words) - 3):
+        if words[at : at + 3] in (["among", "other", "things"], ["amongst", "other", "things"]):
+            start, end = at - (words[at - 1] == ","), at + 3 + (words[at + 3] == ",")
+            return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[at + 2])]
+    return None

@@ -55,9 +55,10 @@ def share(
     if all_of:
         return "each"
     beside = link.manner == "place" and link.kind not in SUPPORT_KINDS
-    if not having or beside or not any(map(_single, groups)):
+    if not having or beside or not any(_single(group, filling=link.filling) for group in groups):
         return "as counted"
-    return "in turn" if len(groups) == len(carriers) > 2 and all(map(_single, groups)) else "each"
+    single = all(_single(group, filling=link.filling) for group in groups)
+    return "in turn" if len(groups) == len(carriers) > 2 and single else "each"
 
 
 def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> list[Item]:
@@ -95,5 +96,23 @@ def _groups(items: Sequence[Item]) -> list[Group]:
     return list(dict.fromkeys(item.group for item in items))
 
 
-def _single(group: Group) -> bool:
-    return len(group.items) == 1 and not group.counted and group.phrase.determined
+def _single(group: Group, *, filling: bool) -> bool:
+    """Whether one thing is named: "a rose", and "filled with roses" where those are one bouquet."""
+    return len(group.items) == 1 and not group.counted and (group.phrase.determined or filling)
+
+
+def as_many(world: World, link: Link, parents: list[Item], children: Sequence[Item]) -> list[Item]:
+    """`parents` of which the number is not said: as many as the `children`, each with its own, or no more.
+
+    "Two cups on saucers" are on two saucers, and "two vases on shelves" on no more than two shelves.
+    """
+    group, wanted = parents[0].group, len(world.bases(children))
+    own = world.is_a(parents[0], lexicon.BENEATH_CUPS, ("placemat",))
+    fresh = group.phrase.plural and not group.counted and not group.phrase.definite and not group.modifiers.palette
+    fresh = fresh and group.height == 1 and all(world.support(item) is None for item in group.items)
+    if link.kind not in SUPPORT_KINDS or not fresh or len(parents) != len(group.items) or wanted < 2:
+        return parents
+    if wanted < len(parents) or (own and wanted > len(parents)):
+        recount(world, group, wanted)
+        return list(group.items)
+    return parents

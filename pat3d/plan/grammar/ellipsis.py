@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.cells import in_the_whole
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.lexicon import SIZES
 from pat3d.plan.grammar.likes import likes_named, with_noun
@@ -23,7 +24,7 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] =
     `known` are the phrases of what was named before them.
     """
     told = likes_named(_from_below(_described(_gapped(_full(chunks)))), nouns, known)
-    return _towers(_alike(told_alike(_with_nouns(told, nouns), nouns)))
+    return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known))))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -146,6 +147,26 @@ def _level(chunks: Sequence[Chunk], at: int) -> tuple[int, int]:
     if part is not None and part.kind == "part" and part.said in _LEVELS:
         return _LEVELS[part.said], 2
     return 0, 0
+
+
+def _levelled(chunks: list[Chunk]) -> list[Chunk]:
+    """`chunks` with "a red, a blue and a white block, white at the bottom" as "a white, a blue and a red block"."""
+    for at in range(3, len(chunks) - 1):
+        phrase, before = chunks[at].phrase, chunks[at - 2].phrase
+        level, size = _level(chunks, at + 1)
+        if phrase is None or before is None or not _colour_alone(phrase) or level == 1 or at + 1 + size < len(chunks):
+            continue
+        start = at - 2
+        while start > 1 and chunks[start - 1].kind == "joint" and chunks[start - 2].kind == "noun":
+            start -= 2
+        listed = list(range(start, at - 1, 2))
+        own = [n for n in listed if chunks[n].named.modifiers.colours == phrase.modifiers.colours]
+        if size and chunks[at - 1].kind == "joint" and len(listed) > 1 and len(own) == 1:
+            order = [n for n in listed if n != own[0]]
+            order.insert(0 if level == 0 else len(order), own[0])
+            told = dict(zip(listed, order, strict=True))
+            return [chunks[told.get(n, n)] for n in range(at - 1)]
+    return chunks
 
 
 def _described(chunks: Sequence[Chunk]) -> list[Chunk]:

@@ -32,7 +32,7 @@ Item = list[Token]
 
 def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
-    tokens = _all_alike(_set_off_colours(list(tokens)), nouns)
+    tokens = _all_alike(_with_heads(_set_off_colours(list(tokens)), nouns), nouns)
     return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
 
 
@@ -73,7 +73,7 @@ def _kind_at(words: Sequence[str], end: int, nouns: Nouns) -> tuple[int, bool]:
     for size in (3, 2, 1):
         said = words[end - size : end] if size <= end else []
         ends = [" ".join([*said[:-1], one]) for one in singulars(said[-1])] if said else []
-        if any(one in lexicon.GENERICS for one in ends):
+        if any(one in lexicon.GENERICS for one in ends) or (size == 1 and said and said[0] in lexicon.MASS_GENERICS):
             return end - size, True
         found = nouns.match(said) if said else None
         if found is not None and found.plural:
@@ -173,6 +173,17 @@ def _set_off_colours(tokens: list[Token]) -> list[Token]:
         if closed and len(listed) == _number(words[at - 2]):
             colours = [one for item in listed for one in (item[0], tokens[at])][:-1]
             return [*tokens[: at - 1], *colours, tokens[at - 1], *tokens[end:]]
+    return tokens
+
+
+def _with_heads(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "salt and pepper shakers" as "salt shakers and pepper shakers": salt is no thing of its own."""
+    words = [token.text for token in tokens]
+    for at in (n for n in range(1, len(words) - 3) if words[n] == "and" and words[n - 1] in lexicon.SUBSTANCES):
+        name = at + 1 + (words[at + 1] in _LEADING)
+        head = tokens[min(name + 1, len(tokens) - 1)]
+        if not head.mark and nouns.match([words[at - 1], head.text]) and nouns.match([words[name], head.text]):
+            return [*tokens[:at], replace(tokens[at - 1], text=head.text), *tokens[at:]]
     return tokens
 
 

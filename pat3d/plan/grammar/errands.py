@@ -21,7 +21,15 @@ _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "s
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
                     ("back", "into")})  # fmt: skip
 _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "next", "behind", "near"})
-_AFTER = (("and", "then"), (",", "then"), (",", "and", "then"), ("and", "also"), (",", "and", "also"), ("then",))
+_AFTER = (
+    ("and", "then"),
+    (",", "then"),
+    (",", "and", "then"),
+    ("and", "also"),
+    (",", "and", "also"),
+    ("then",),
+    ("as", "well", "as"),
+)
 _ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
                ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
 _ONES = frozenset({"one", "ones", "other", "others", "second", "first", "third", "last", "rest"})
@@ -40,7 +48,7 @@ def errands(tokens: Sequence[Token]) -> list[Token]:
     made = _sorted(_belonging(_owed(list(tokens))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _once_more(_once_again(_carried(_emptied(_put_back(_one_by_one(made))))))
+    return _once_more(_once_again(_added(_carried(_emptied(_put_back(_one_by_one(made)))))))
 
 
 def _commands(tokens: Sequence[Token], at: int) -> bool:
@@ -92,8 +100,10 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         if not _commands(made, at) or made[at].text not in _TAKING | _UNLOADING:
             continue
         end = _end(made, at)
-        goal = next((n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS
-                     and _leads(made, n + link_at(made, n))), 0)  # fmt: skip
+        # "Take the cup next to the plate": "to" is no goal there.
+        inside = {n + k for n in range(at + 2, end) for k in range(1, link_at(made, n))}
+        goals = (n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS)
+        goal = next((n for n in goals if n not in inside and _leads(made, n + link_at(made, n))), 0)
         verb, joined = made[at].text, made[goal - 1].text == "and"
         source = any(made[n].text == "from" for n in range(at, goal))
         if not goal or (verb == "pick" and not joined) or (verb in _UNLOADING and (verb == "empty" or not source)):
@@ -122,6 +132,20 @@ def _emptied(tokens: Sequence[Token]) -> list[Token]:
 
 def _leads(tokens: Sequence[Token], at: int) -> bool:
     return tokens[at].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
+
+
+def _added(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "put the cup on the tray and the bowl too" as "... and also the bowl"."""
+    words = [token.text for token in tokens]
+    for at in range(4, len(words) - 1):
+        size = 1 if words[at] == "too" else 2 if words[at : at + 2] == ["as", "well"] else 0
+        if not size or not tokens[at + size].mark or "and" not in words[:at]:
+            continue
+        joint = at - 1 - words[:at][::-1].index("and")
+        if _leads(tokens, joint + 1) and not any(link_at(tokens, n) for n in range(joint + 1, at)):
+            also = replace(tokens[joint], text="also")
+            return [*tokens[: joint + 1], also, *tokens[joint + 1 : at], *tokens[at + size :]]
+    return list(tokens)
 
 
 def _once_again(tokens: Sequence[Token]) -> list[Token]:
@@ -175,7 +199,8 @@ def _sorted(tokens: list[Token]) -> list[Token]:
     if words[0] != "sort" or words[1] not in lexicon.DEFINITE or not colon or "from" in words[:colon]:
         return tokens
     end = next(n for n in range(2, colon + 1) if words[n] in ("by", ":", "into", "according", "in"))
-    name, parts = tokens[2:end], [[]]  # type: tuple[list[Token], list[list[Token]]]
+    name = tokens[2:end]
+    parts: list[list[Token]] = [[]]
     for token in tokens[colon + 1 : -1]:
         if token.text in (",", "and", ";"):
             parts.append([])

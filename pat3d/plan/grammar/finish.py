@@ -146,7 +146,9 @@ def _side_alone(world: World, told: Sided) -> None:
     kind = _KINDS[_ORDER[told.side]]
     implied = [item for item in told.implied if item not in told.items]
     if implied:
-        world.beside(told.items, kind, implied[:1])
+        firsts = {item.group: item for item in reversed(implied)}
+        for first in reversed(firsts.values()):
+            world.beside(told.items, kind, [first])
     elif all(edge.parent not in told.items and edge.child not in told.items for edge in world.laterals):
         if told.side in ("one", "other"):
             world.note(f'not arranged: "{told.items[0].group.words}" at one end or side')

@@ -26,13 +26,17 @@ _ARTICLES = frozenset({"a", "an", "some", "the"})
 
 def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the verb in every clause that leaves it out."""
+    tokens = _apposed(tokens)
     made: list[Token] = []
     verb: Token | None = None
+    copula: Token | None = None
     at = 0
     while at < len(tokens):
         token = tokens[at]
         if token.text in FINITE and _has_object(tokens, at):
             verb = token
+        if token.text in lexicon.COPULAS and _describes(tokens[min(at + 1, len(tokens) - 1)].text):
+            copula = token
         made.append(token)
         at += 1
         if token.text not in _JOINTS:
@@ -43,12 +47,36 @@ def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             said = _OF_ONE.get(verb.text, verb.text) if one else verb.text
             made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=said)]
             at += size
+        elif copula is not None and (size := _quality(tokens, at, nouns)):
+            made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=copula.text)]
+            at += size
         elif told := _place(tokens, at, nouns):
             end, after = told
             there = [replace(tokens[end - 1], text=word) for word in ("there", "is")]
             made += [*_described(tokens[at:end], tokens[:at], nouns), *there]
             at = after
     return made
+
+
+def _apposed(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "another one, a blue one, on the shelf" as "a blue one on the shelf"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        if words[at] != "," or words[at + 1] not in ("a", "an") or words[at + 3] != "one":
+            continue
+        start = at - 1 - (words[at - 1] == "one")
+        if start > 0 and words[start] == "another" and _describes(words[at + 2]):
+            end = at + 4 + (words[at + 4] == ",")
+            return [*tokens[:start], *tokens[at + 1 : at + 4], *tokens[end:]]
+    return list(tokens)
+
+
+def _quality(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
+    """The words of the subject at token `at` behind which only a quality stands: "the second blue"; 0 for none."""
+    size = _subject(tokens, at, nouns)
+    after = tokens[min(at + size + 1, len(tokens) - 1)]
+    told = size and _describes(tokens[at + size].text) and tokens[at + size - 1].text not in _ONES
+    return size if told and (after.mark or after.text in _JOINTS) else 0
 
 
 def _place(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, int] | None:

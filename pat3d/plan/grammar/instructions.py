@@ -1,4 +1,4 @@
-"""Instructions: which clause tells a robot what to do, the scene before it is done, and the task that it is.
+"""Instructions: which clause tells a robot what to do, and the scene before it is done.
 
 "Put the soup in the basket" makes a soup and a basket and the task place:soup:basket. What is told of indefinite things
 with a verb of placing ("put two mugs on a shelf") describes the scene to make.
@@ -6,26 +6,22 @@ with a verb of placing ("put two mugs on a shelf") describes the scene to make.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.commands import commanded
 from pat3d.plan.grammar.errands import errands, left_alone
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import LINKS
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.outcomes import end_state
 from pat3d.plan.grammar.unmade import base_verb, is_quality
 from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.wielded import wielded
-from pat3d.plan.grammar.world import Item, Manner, Step, World
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.plan.grammar.world import Manner
 
-_VERBS: dict[str, Manner] = {
+VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",
                      "balance", "scatter", "spread", "stick", "keep", "distribute", "rest", "center", "centre",
                      "line", "sit", "fill"), "make"),
@@ -40,7 +36,8 @@ _VERBS: dict[str, Manner] = {
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
-                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "reach", "swap", "scoop", "touch",
+                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "cross", "reach", "swap",
+                     "scoop", "touch",
                      "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange",
                      "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble", "rinse", "scrub", "dry", "discard", "secure", "squeeze",
@@ -51,8 +48,6 @@ _VERBS: dict[str, Manner] = {
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
 """Verbs that are never nouns or adjectives, so that a bare noun may follow."""
-_CHOOSING = frozenset({"hold", "choose", "select", "identify", "find"})
-"""Verbs of what is picked that take it nowhere."""
 _FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
@@ -66,10 +61,6 @@ _ASKING = (
     ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
     ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
 )  # fmt: skip
-_FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
-"""Verbs of placing that say how several things stand together."""
-_ELSEWHERE = re.compile(r"\b(?:on|onto|in|into|at|from)\b (?!(?:top of )?(?:each|one|another)|an? )|,", re.IGNORECASE)
-"""Words by which a stack is said to stand somewhere, or more is said of it."""
 SHUTTING = frozenset({"open", "close", "shut"})
 """Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
@@ -98,6 +89,8 @@ class Clause:
     """Whether the sentence begins with it."""
     aside: tuple[str, ...] = ()
     """What was left out of the sentence before it was read, piece by piece."""
+    then: bool = False
+    """Whether the sentence goes on with what is to be done then, so that this is a deed and no scene."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -123,13 +116,13 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         made.append(Clause(tokens=(*tokens[: starts[0][0]], tokens[-1])))
     ends = [start for start, _ in starts[1:]] + [len(tokens) - 1]
     for (start, verb), end in zip(starts, ends, strict=True):
-        word = _base(tokens[verb].text)
+        word = base_of(tokens[verb].text)
         first = verb + 1
         while tokens[first].text in _PARTICLES and not (tokens[first].text == "on" and tokens[verb].text in _CERTAIN):
             first += 1
         body, aside = list(tokens[first:end]), ()
         for at, token in enumerate(body[:-1]):
-            purpose = _is_deed(body[at + 1].text, nouns) and _VERBS.get(body[at + 1].text, "other") == "other"
+            purpose = _is_deed(body[at + 1].text, nouns) and VERBS.get(body[at + 1].text, "other") == "other"
             purpose = purpose or body[at + 1].text in _PURPOSES
             named = any(nouns.match([each.text]) for each in body[at + 2 :])
             if token.text == "to" and purpose and at and (not named or body[at + 1].text in _PURPOSES):
@@ -144,40 +137,29 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             # "Leave the mug on the table and move the plate": the mug is there.
             made.append(Clause(tokens=(*left_alone(body), stop)))
             continue
-        manner = _VERBS.get(word, "other")
+        manner = VERBS.get(word, "other")
         body, turned = end_state(body, word, manner)
         aside = (*aside, *((text[turned.start : turned.end],) if turned is not None else ()))
         begun = max(start, 0)
         said = text[tokens[begun].start : max(token.end for token in tokens[begun:end])].lstrip(", ")
         said = said.removeprefix("and ").removeprefix("then ")
-        with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns)
+        with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns) if manner != "other" else (0, 0)
         if after:
             # "Push the ball with the bat": the bat lies by itself.
             made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
-            aside = (*aside, *((text[body[with_it].start : body[after - 1].end],) if manner != "other" else ()))
+            aside = (*aside, text[body[with_it].start : body[after - 1].end])
             body = [*body[:with_it], *body[after:]]
-        if manner == "pick" and word not in _CHOOSING and _leads_to_goal(body):
-            # "Take the cup to the table"
-            manner = "move"
-        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside))
+        later = next((at for begin, at in starts if begin == end), 0)
+        then = bool(later) and "then" in {token.text for token in tokens[end:later]}
+        then = then and tokens[later + 1].text in lexicon.DEFINITE | {"it", "them"}
+        made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=said, first=not made, aside=aside,
+                           then=then))  # fmt: skip
     return made
-
-
-def _leads_to_goal(tokens: Sequence[Token]) -> bool:
-    """Whether `tokens` say where something is taken: "to the table", "into the box"."""
-    at = 1
-    while at < len(tokens):
-        size = link_at(tokens, at)
-        link = LINKS.get(tuple(token.text for token in tokens[at : at + size]))
-        if link is not None and link.manner == "goal" and link.kind in SUPPORT_KINDS:
-            return True
-        at += size or 1
-    return False
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:
     """Whether `word` is a verb without an ending, and names nothing."""
-    return (word in _VERBS or base_verb(word) == word) and nouns.match([word]) is None
+    return (word in VERBS or base_verb(word) == word) and nouns.match([word]) is None
 
 
 def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
@@ -189,7 +171,7 @@ def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     if not deed and not (doing and base_verb(verb) is not None):
         return False
     end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark)
-    pronoun = tokens[at + 2].text in ("it", "them") and _VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
+    pronoun = tokens[at + 2].text in ("it", "them") and VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
     return pronoun or bool(_names(tokens[at + 2 : end], nouns) - _names(tokens[:at], nouns))
 
 
@@ -208,16 +190,17 @@ def _names(tokens: Sequence[Token], nouns: Nouns) -> set[str]:
     return made
 
 
-def _base(word: str) -> str:
+def base_of(word: str) -> str:
+    """`word` without the ending of its person, as `VERBS` has it where it does."""
     for guess in (word, word.removesuffix("s"), word.removesuffix("es")):
-        if guess in _VERBS:
+        if guess in VERBS:
             return guess
     return base_verb(word) or word
 
 
 def known_verb(word: str) -> bool:
     """Whether `word` tells a robot what to do."""
-    return word in _VERBS or base_verb(word) == word
+    return word in VERBS or base_verb(word) == word
 
 
 def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -> int | None:
@@ -228,11 +211,11 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         asking = next(
             (each for each in sorted(_ASKING, key=len, reverse=True) if tuple(words[: len(each)]) == each), None
         )
-        if asking and not (asking == ("go",) and _base(words[1]) not in _VERBS):
+        if asking and not (asking == ("go",) and base_of(words[1]) not in VERBS):
             at += len(asking)
-        elif opening and words[0] == "to" and words[1] in _VERBS and not at:
+        elif opening and words[0] == "to" and words[1] in VERBS and not at:
             at += 1
-        elif words[0].endswith("ly") and words[1] in _VERBS and words[0] not in lexicon.BACKGROUND:
+        elif words[0].endswith("ly") and words[1] in VERBS and words[0] not in lexicon.BACKGROUND:
             # "Firmly press the button"
             at += 1
         elif words[0] in _FILLERS and (opening or words[0] != ","):
@@ -242,11 +225,11 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         else:
             break
     word = tokens[at].text
-    base = _base(word) if actor else word
+    base = base_of(word) if actor else word
     if at + 1 >= len(tokens):
         return None
     follows = tokens[at + 1].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
-    if base not in _VERBS:
+    if base not in VERBS:
         # A verb of which no task is known: "Trade the places of the cups".
         unknown = _is_deed(word, nouns) and word not in lexicon.COMMANDS | lexicon.VERBS | _NO_DEEDS
         return at if unknown and follows and (not opening or tokens[at].number == 1) else None
@@ -282,7 +265,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
     if base in _CERTAIN and not tokens[at + 1].mark:
         return at
-    going = _VERBS[base] == "other" and nouns.match([word]) is None
+    going = VERBS[base] == "other" and nouns.match([word]) is None
     if going and (link_at(tokens, at + 1) or (tokens[at + 1].mark and not opening)) and (at or not tokens[at + 1].mark):
         # "Navigate to the table, ...", "reach into the box", "... and stir"
         return at if not opening or tokens[at].number == 1 or actor else None
@@ -309,7 +292,7 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
                 after = words[ahead + 1]
                 if after in ("to", ",", "and"):
                     return at + ahead + 2
-                if _base(after) in _VERBS:
+                if base_of(after) in VERBS:
                     return at + ahead + 1
             if word in (".", ","):
                 break
@@ -324,103 +307,6 @@ def _after_actor(tokens: Sequence[Token], at: int) -> int:
                 ahead += 1
             # "A robot holding a cup stands" tells of a thing.
             acts = ahead > named or (words[0] not in ("a", "an") and not words[min(ahead, 11)].endswith("ing"))
-            if acts and ahead < len(words) and _base(words[ahead]) in _VERBS:
+            if acts and ahead < len(words) and base_of(words[ahead]) in VERBS:
                 return at + ahead
     return 0
-
-
-def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[str]]:
-    """The one task that the steps of `world` are, None where no kind of task is, and notes on what is not in it.
-
-    Args:
-        world: with what is to be done, in order.
-        names: of the objects of the plan.
-    """
-    steps = world.steps
-    notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
-    # To pick what something is done with afterwards is the beginning of that.
-    begun = [{item for later in steps[at + 1 :] for item in later.items} for at in range(len(steps))]
-    wanted = [
-        step
-        for step, later in zip(steps, begun, strict=True)
-        if step.manner != "other" and step.items and not (step.manner == "pick" and set(step.items) & later)
-    ]
-    specs: list[str] = []
-    for step in wanted:
-        made = _specs(step, world, names)
-        notes += _unsaid(step, world)
-        if not made:
-            notes.append(f'not modelled: "{step.said}": no task does that.')
-        specs += made
-    if not specs:
-        # "Grasp the block, then turn it": of the two, the first is a task.
-        picks = (_specs(step, world, names) for step in steps if step.manner == "pick" and step not in wanted)
-        specs = next((made for made in picks if made), [])
-    if len(specs) > 1:
-        listed = ", ".join(specs)
-        notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
-        return None, notes
-    return (specs[0] if specs else None), notes
-
-
-def _unsaid(step: Step, world: World) -> list[str]:
-    """What `step` asks beyond its task, and what it leaves open."""
-    notes: list[str] = []
-    verb = next((word for word in step.said.lower().split() if _base(word) in _VERBS), "")
-    if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
-        named = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in step.items))
-        if not any(item in world.supports for item in step.items):
-            notes.append(f"{named}: what is in it is not said; it is made empty.")
-    if verb in _FORMING and step.manner == "make":
-        notes.append(f'not modelled: "{verb}": a task asks where each thing is put, not how they stand together.')
-    return notes
-
-
-def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
-    if step.manner == "unload":
-        edges = [(item, world.supports.get(item)) for item in step.items[:1]]
-        # "unload the cups from the crate" is about the crate.
-        holders = [edge.parent if edge is not None and edge.kind == "in" else item for item, edge in edges]
-        likely = world.likely
-        holders = [item for item in holders if likely.hollow(world.noun(item)) or likely.closet(world.noun(item))]
-        return [f"unload:{names[item]}" for item in holders if item in names]
-    if step.manner == "sort":
-        return ["sort"] if len(step.goal) > 1 else []
-    # No robot moves furniture.
-    items = [item for item in step.items if item in names and not world.on_floor(item)]
-    if step.manner == "pick":
-        return [f"pick:{names[items[0]]}"] if len(items) == 1 else []
-    goal = next((item for item in step.goal if item in names), None)
-    if goal is not None and goal.group.height > 1:
-        goal = world.tops(step.goal)[-1]
-    if step.manner == "stack" and goal is None and len(items) == 2:
-        return [f"stack:{names[items[0]]}:{names[items[1]]}"]
-    if step.manner == "stack" and step.link is None and _ELSEWHERE.search(step.said) is None:
-        return _tower(items, names)
-    if goal is None or step.link is None:
-        return []
-    support = step.link.kind in SUPPORT_KINDS or step.link.manner in ("goal", "half")
-    fits = step.link.manner in ("place", "goal", "half") and support and step.link.says != "above"
-    nearer = any(f"{word} to " in step.said.lower() for word in lexicon.DIRECTIONS if word.endswith("er"))
-    if not fits or nearer or step.link.kind == "hangs_from":
-        return []
-    noun = world.noun(goal)
-    if step.link.manner == "half" and step.link.side != "centre" and not world.likely.level(noun):
-        # "To the left side of the lamp" is beside it.
-        return []
-    stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
-    kind = "stack" if stacked else "place"
-    moved = [item for item in items if item is not goal and world.support(item) is not goal]
-    if step.manner == "stack":
-        # "Stack the three cubes on the tray": the second on the first.
-        return [f"{kind}:{names[item]}:{names[goal]}" for item in moved[:1]] + _tower(moved, names)
-    alike = [item for item in step.goal if item in names and item.group is goal.group]
-    # "Put the two cups on the two plates": one on each.
-    goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
-    pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
-    return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
-
-
-def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:
-    """The tasks by which each of `items` comes to stand on the one before it."""
-    return [f"stack:{names[item]}:{names[below]}" for below, item in pairwise(items)]

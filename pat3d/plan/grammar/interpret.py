@@ -11,7 +11,7 @@ from pat3d.plan.grammar.account import holds_already, learned, miscounted, words
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
-from pat3d.plan.grammar.distribution import all_like, for_each, hand_out, share
+from pat3d.plan.grammar.distribution import all_like, as_many, for_each, hand_out, share
 from pat3d.plan.grammar.instructions import SHUTTING, Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
@@ -65,6 +65,7 @@ class Interpreter(Placing):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
+        self._said.asked = self._clause.manner is not None
         self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
         self._said.related = [
             (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
@@ -238,6 +239,8 @@ class Interpreter(Placing):
         made_up = (
             self._clause.manner in ("make", "stack")
             and not taken
+            and not self._clause.then
+            and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None
                 and phrase.determined
@@ -336,6 +339,12 @@ class Interpreter(Placing):
             # "Stack the cups, the red one at the bottom, the blue one on top": by no cup.
             self._world.note(f'not understood: "{self._chunks[at].text} {self._chunks[parent_heads[0]].text}"')
             return
+        owned = [self._chunks[head].named for head in child_heads]
+        if all(one.kind == "part" and one.possessive for one in owned) and link.kind in LATERAL_KINDS:
+            # "A bottle, its cap beside it": the cap is none of its own.
+            said = " ".join(self._chunks[head].text for head in (*child_heads, at, *parent_heads))
+            self._world.note(f'not modelled: "{said}"')
+            return
         later = any(self._said.is_open(head) for head in child_heads)
         parents = [] if later else self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
@@ -355,6 +364,10 @@ class Interpreter(Placing):
         if link.manner == "far" and self._clause.manner is not None:
             # "Take the cup away from the table": before that it is there.
             link = Link(manner="source")
+        standing = children and parents and all(self._world.on_floor(item) for item in (children[0], parents[0]))
+        if link.manner == "source" and self._clause.manner is not None and standing:
+            # "Pull the chair away from the table"
+            link = Link(kind="next_to")
         if self._clause.manner is None:
             link = self._resting(at, link, children, parents)
         places = [self._chunks[head].phrase for head in parent_heads]
@@ -386,7 +399,7 @@ class Interpreter(Placing):
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
             children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
-        parents = self._as_many(children, link, parents)
+        parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)
         of_all = self._said.speaks_of_each(parent_heads, carrying=True)
         had = share(self._world, link, parents, children, all_of=of_all, having=having)
@@ -420,24 +433,11 @@ class Interpreter(Placing):
         links = [chunk.link for chunk in self._chunks[max(owners) : at]]
         return any(link is not None and link.finite and link.inverse for link in links)
 
-    def _as_many(self, children: list[Item], link: Link, parents: list[Item]) -> list[Item]:
-        """`parents` of which the number is not said: as many as the `children`, each with its own, or no more."""
-        group, wanted = parents[0].group, len(self._world.bases(children))
-        own = self._world.is_a(parents[0], lexicon.BENEATH_CUPS, ("placemat",))
-        fresh = group.phrase.plural and not group.counted and not group.phrase.definite and not group.modifiers.palette
-        fresh = fresh and group.height == 1 and all(self._world.support(item) is None for item in group.items)
-        if link.kind not in SUPPORT_KINDS or not fresh or len(parents) != len(group.items) or wanted < 2:
-            return parents
-        if wanted < len(parents) or (own and wanted > len(parents)):
-            recount(self._world, group, wanted)
-            return list(group.items)
-        return parents
-
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""
         phrase = self._chunks[head].named
-        told = phrase.one_of or bool(phrase.superlative != NO_MODIFIERS)
-        return list(children[0].group.items) if told and len(children) == 1 else children
+        told = phrase.some or bool(phrase.superlative != NO_MODIFIERS)
+        return list(children[0].group.items) if told and len(children) == (phrase.some or 1) else children
 
     def _means(self, fact: tuple) -> bool:
         """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""

@@ -17,6 +17,9 @@ _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "l
 _OF_SEVERAL = frozenset({"are", "were", "sit", "stand", "lie", "rest", "hang", "lean", "have", "hold", "contain"})
 HEADLESS = ("pieces", "part")
 
+_NATURAL = 0.25
+"""Cost of a relation below which people expect it."""
+
 
 class Judging:
     """Questions about the chunks of one sentence."""
@@ -67,7 +70,14 @@ class Judging:
         same = phrase.definite and not phrase.other and any(_same(self._phrase(each), phrase) for each in heads)
         told = phrase.kind == "pieces" and phrase.definite and phrase.modifiers.adjectives
         member = told and any(self._phrase(each).kind == "object" and self._several(each) for each in heads)
-        return same or bool(member) or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
+        # "two blue, and a green one on top of a blue one"
+        colours = phrase.kind == "pieces" and phrase.modifiers.colours
+        coloured = colours and any(self._phrase(each).modifiers.colours == colours for each in heads)
+        return (
+            same
+            or bool(member or coloured)
+            or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
+        )
 
     def _named_before(self, at: int) -> bool:
         """Whether several objects are named before chunk `at`: "two boxes with a ball and a cup in each" of them."""
@@ -92,6 +102,18 @@ class Judging:
             large = any(too_large(self._noun(child), self._noun(parents[0])) for child in children)
             return max(*costs, 1.3 * large)
         return sum(costs) / max(len(costs), 1)
+
+    def _carries_it(self, link: Link, named: Node, modifier: Node) -> bool:
+        """Whether what is "on it" in `modifier` may be on `named`: "a plate on a desk with a bun on it"."""
+        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) > 1:
+            return False
+        its = {fact[1] for fact in modifier.facts if fact[0] == "bind" and fact[2] == modifier.heads}
+        rels = [fact for fact in modifier.facts if fact[0] == "rel" and its & set(fact[3])]
+        return any(
+            self._link(at).kind in SUPPORT_KINDS
+            and self._likely.relation(self._link(at), self._noun(children[0]), self._noun(named.heads[0])) < _NATURAL
+            for _, at, children, _ in rels
+        )
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
         return len(heads) == 1 and (
@@ -145,7 +167,7 @@ class Judging:
         if not word or any(phrase.kind != "object" or phrase.cycle for phrase in named):
             return False
         several = len(named) > 1 or named[0].plural or (named[0].count or 1) > 1
-        stacked = named[0].height is not None or named[0].one_of
+        stacked = named[0].height is not None or named[0].some == 1
         return not stacked and ((word[0] in _OF_ONE and several) or (word[0] in _OF_SEVERAL and not several))
 
     def _kind_named(self, start: int, end: int) -> int | None:

@@ -142,6 +142,8 @@ COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "v
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
     "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
     "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+ALIKE_IN_PLURAL = frozenset({"sheep", "fish", "deer"})
+"""Nouns of which the plural is no other word: "a herd of sheep"."""
 ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
@@ -336,7 +338,7 @@ PACKED = {
     "soup": "tomato soup", "sauce": "tomato sauce", "coffee": "coffee can", "tea": "tea box", "sugar": "sugar box",
     "water": "bottle", "wine": "wine bottle", "beer": "beer bottle", "soda": "soda can", "salt": "salt shaker",
     "jam": "jam jar", "shampoo": "shampoo", "trash": "trash can", "garbage": "trash can", "rubbish": "trash can",
-    "tap": "faucet", "pad": "mat",
+    "tap": "faucet",
 }  # fmt: skip
 """What "the soup" is, where it can be put somewhere."""
 SENSES: dict[str, tuple[tuple[str, str], ...]] = {

@@ -51,7 +51,12 @@ def normalise(prompt: str) -> str:
     text = re.sub(r"(?<![\d/.])(\d{1,3})/([1-9]\d?)(?=[ -]?(?:mm|cm|m|in|inch|inches|feet|foot|ft)\b)", _quotient, text)
     text = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", text)
     text = re.sub(r"\b(\d{1,3}) ?[x\u00d7] (?=[^\W\d_])", r"\1 ", text)
-    text = re.sub(r"(?<=[^\W\d_]) ?\(\d{1,3}\)", "", text)
+    # "Three (3) plates"; in "plates (3)" the number is said there alone.
+    text = re.sub(
+        r"\b([^\W\d_]+) ?\((\d{1,3})\)",
+        lambda found: found[1 if _SPELLED.get(found[1].lower()) == found[2] else 0],
+        text,
+    )
     text = re.sub(
         r"\b(\d{1,2}) \(([a-z]+)\)", lambda found: found[1 if _SPELLED.get(found[2]) == found[1] else 0], text
     )

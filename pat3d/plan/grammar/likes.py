@@ -28,7 +28,7 @@ def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]
             continue
         told = [(n, one.phrase) for n, one in enumerate(made[:at]) if one.phrase is not None]
         before = [(n, one) for n, one in told if one.kind == "object" and not one.cycle]
-        like = (_known_like if phrase.definite else _new_like)(phrase, before, known)
+        like = _known_like(phrase, before, known) if phrase.definite else _new_like(phrase, before, made[:at], known)
         if like is None:
             continue
         n, one = like
@@ -78,13 +78,17 @@ def _several(phrase: Phrase) -> bool:
 
 
 def _new_like(
-    phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
+    phrase: Phrase, before: Sequence[tuple[int, Phrase]], chunks: Sequence[Chunk], known: Collection[Phrase]
 ) -> tuple[int, Phrase] | None:
-    """What "a short one" is one more of; None where it is one of what was named, or that cannot be told."""
+    """What "a short one" behind `chunks` is one more of; None where it is one of what was named, or cannot be told."""
     kind, value = _property(phrase.modifiers), _value(phrase.modifiers)
     alike = [(n, one) for n, one in before if _property(one.modifiers) == kind]
-    first = [(n, one) for n, one in before[:1] if not known]
-    n, one = next(iter([*reversed(alike), *first]), (0, None))
+    if not alike and (known or any(_several(one) for _, one in before)):
+        return None
+    # "On a tray are a cup and a small one": no tray; "a cup stands on a tray, and a small one ...": no tray either.
+    free = [(n, one) for n, one in before if not n or chunks[n - 1].kind != "rel"]
+    listed = [(n, one) for n, one in free[-1:] if n == len(chunks) - 2 and chunks[-1].kind == "joint"]
+    n, one = next(iter([*reversed(alike), *listed, *free, *before]), (0, None))
     if one is None or (_several(one) and (not _property(one.modifiers) or _value(one.modifiers) & value)):
         return None
     return n, one
@@ -93,18 +97,28 @@ def _new_like(
 def _known_like(
     phrase: Phrase, before: Sequence[tuple[int, Phrase]], known: Collection[Phrase]
 ) -> tuple[int | None, Phrase] | None:
-    """What "the larger one" is told from: of its kind there is nothing but what is told by its size too."""
-    if _property(phrase.modifiers) != "size":
-        return None
+    """What "the larger one" is told from, where of its kind there is nothing but what is told by its size too.
+
+    "The dirty one" after "a dirty plate" is that plate.
+    """
+    kind, value = _property(phrase.modifiers), _value(phrase.modifiers)
     named: list[tuple[int | None, Phrase]] = [*((None, one) for one in known), *before]
-    told = [(n, one) for n, one in named if one.definite and _property(one.modifiers) == "size"]
+    same = [(n, one) for n, one in named if _property(one.modifiers) == kind and _value(one.modifiers) & value]
+    if same and kind != "size":
+        return same[-1]
+    told = [(n, one) for n, one in named if one.definite and _apart(kind, value, one.modifiers)]
     if not told:
         return None
     n, one = told[-1]
     alike = [other for _, other in named if other.noun == one.noun]
-    apart = all(_property(other.modifiers) == "size" and not _value(other.modifiers) & _value(phrase.modifiers)
-                for other in alike)  # fmt: skip
-    return (n, one) if apart else None
+    return (n, one) if all(_apart(kind, value, other.modifiers) for other in alike) else None
+
+
+def _apart(kind: str, value: set[str], words: Modifiers) -> bool:
+    """Whether `words` give another size or material than `value`, or the opposite looks: "clean" and "dirty"."""
+    if _property(words) != kind or _value(words) & value:
+        return False
+    return kind != "looks" or any(pair & value and pair & _value(words) for pair in lexicon.OPPOSITES)
 
 
 def measured(words: Modifiers) -> Modifiers:

@@ -72,6 +72,7 @@ def _table() -> dict[tuple[str, ...], Link]:
         "furthest away from", "farthest away from")  # fmt: skip
     add(Link(manner="source", kind="on"), "from", "off", "off of", "from the top of")
     add(Link(manner="source", kind="in"), "out of", "from inside")
+    add(Link(manner="source", kind="next_to"), "from the base of", "from the foot of", "from beside", "from next to")
     add(Link(manner="goal", kind="on"), "to", "onto", "back to", "back onto", "to the top of", "up to", "over to")
     add(Link(manner="goal", kind="in"), "into", "back into", "inside of")
     add(Link(kind="next_to", manner="goal"), "towards", "toward")

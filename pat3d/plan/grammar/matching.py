@@ -36,7 +36,7 @@ def same_noun(group: Group, phrase: Phrase) -> bool:
     """Whether `phrase` names what `group` is."""
     if phrase.kind == "unknown":
         return group.phrase.kind == "unknown" and group.said.split()[-1] in (phrase.head, *singulars(phrase.head))
-    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and group.cycle == phrase.cycle
+    return group.noun == phrase.noun if phrase.noun else bool(group.cycle) and {*group.cycle} == {*phrase.cycle}
 
 
 def same_head(group: Group, phrase: Phrase) -> bool:

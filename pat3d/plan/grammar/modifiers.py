@@ -129,7 +129,8 @@ def _spread(words: Sequence[str]) -> list[str]:
         if word in _MIXED or word in lexicon.SIZES or len(parts) == 1:
             spread.append(word)
         elif parts[-1] in _COLOURED:
-            spread += ["colorful"] if parts[0] in _MANY else parts
+            known = any(find_colour(part) or part in lexicon.SHADE_WORDS for part in parts[:-1])
+            spread += ["colorful"] if parts[0] in _MANY else parts if known else [word]
         elif any(find_colour(part) for part in parts):
             spread += [part for part in parts if find_colour(part) or part in lexicon.SHADE_WORDS]
         elif _material(parts[0]) and parts[-1].endswith("ed"):

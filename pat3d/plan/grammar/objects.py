@@ -48,6 +48,11 @@ class Maker:
         if phrase.kind == "unknown" and not noun:
             noun, said, proxy = self._proxy(world, phrase)
         count, height = self._count(world, phrase, filling)
+        if phrase.cycle:
+            # "A banana in front of some fruits": of which the banana is none.
+            there = {each.noun for each in world.groups}
+            cycle = sorted(phrase.cycle, key=lambda name: (self._nouns.resolve(name) or name) in there)
+            phrase = replace(phrase, cycle=tuple(cycle))
         group = Group(
             phrase=phrase, noun=noun, said=said, modifiers=phrase.modifiers, counted=phrase.count is not None,
             exact=phrase.count is not None and not phrase.vague, height=height, rows=phrase.rows, heap=phrase.heap,
@@ -286,9 +291,17 @@ def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
     if factor < 2:
         return items
     for group in dict.fromkeys(item.group for item in items):
+        before = list(group.items)
         group.items += [Item(group=group) for _ in range(len(group.items) * (factor - 1))]
         group.multiplied = True
         share_colours(group)
+        carried = [edge for edge in world.supports.values() if edge.parent in before and len(before) == 1]
+        for own in dict.fromkeys(edge.child.group for edge in carried if not edge.child.group.phrase.definite):
+            # "On each side of a bed a nightstand with a lamp": a lamp on each.
+            edges = [edge for edge in carried if edge.child.group is own]
+            if len(edges) == len(own.items):
+                more = multiply(world, list(own.items), factor)[len(edges) :]
+                world.place(more, edges[0].kind, group.items[len(before) :], edges[0].weak)
     check_total(world)
     return [each for group in dict.fromkeys(item.group for item in items) for each in group.items]
 
@@ -325,6 +338,12 @@ def tell_colours(world: World, group: Group, told: Modifiers) -> None:
         item.colours = (shared[index % len(shared)],)
 
 
+def _inherited(group: Group) -> bool:
+    """Whether `group` is one more of a kind, and its colour is that of those before: "two red cups, a third one"."""
+    words = group.words.lower().split()
+    return words[-1:] in (["one"], ["another"]) and not any(word in COLOURS for word in words)
+
+
 def describe(group: Group, told: Modifiers, part: str = "") -> None:
     """Give `group` what a later remark says of it: "is wooden", or of its `part`: "with red covers".
 
@@ -332,6 +351,8 @@ def describe(group: Group, told: Modifiers, part: str = "") -> None:
     """
     own = group.modifiers
     colours = (*told.colours, *told.palette[: 1 if len(group.items) > 1 else None])
+    if told.colours and not part and _inherited(group):
+        own = replace(own, colours=())
     adjectives = told.adjectives
     if part and not own.colours and part not in lexicon.MAIN_PARTS:
         adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()

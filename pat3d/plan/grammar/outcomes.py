@@ -20,7 +20,10 @@ _LEADING = frozenset(
     {"in", "into", "on", "onto", "to", "from", "and", "under", "behind", "pick", "grab", "grasp", "open"}
 )
 _NO_THINGS = lexicon.PARTS - {"shelf", "drawer", "door", "compartment"}
+_CLOSING = {"cover": "over", "close": "on", "seal": "on", "top": "on", "crown": "on"}
+"""Deeds that put one thing on another, and how."""
 _TURNING = frozenset({"turn", "rotate", "spin", "twist", "tilt", "roll", "flip", "swivel"})
+_COMING = (("from", "above"), ("from", "below"), ("from", "behind"), ("from", "underneath"))
 _WAYS = frozenset({"clockwise", "counterclockwise", "anticlockwise"})
 _BEFORE = ("lying", "lies", "lie", "laid", "turned", "tipped", "toppled", "knocked", "overturned", "flipped", "facing",
            "tilted", "slanted", "rotated", "leaning", "inverted")  # fmt: skip
@@ -53,6 +56,24 @@ def together(tokens: Sequence[Token]) -> Sequence[Token]:
         if words[end] == "up" and end > at + 1 and not any(link_at(tokens, n) for n in range(at + 1, end)):
             return [*tokens[: at + 1], tokens[end], *tokens[at + 1 : end], *tokens[end + 1 :]]
     return tokens
+
+
+def closed(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "cover the cup with the plate" as "put the plate over the cup"; "close" is as much as "cover"."""
+    words = [token.text for token in tokens]
+    leads = {"the", "this", "that"} | lexicon.POSSESSIVES
+    for at in (n for n in range(len(words) - 5) if words[n] in _CLOSING and words[n + 1] in leads | {"it"}):
+        end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or words[n] in ("and", "then"))
+        joint = next((n for n in range(at + 2, end - 1) if words[n] == "with" and words[n + 1] in leads), 0)
+        opens = not at or words[at - 1] in ("and", "then", ",", "please")
+        if joint and opens and not any(link_at(tokens, n) for n in (*range(at + 1, joint), *range(joint + 2, end))):
+            upon = replace(tokens[joint], text=_CLOSING[words[at]])
+            put, thing, rest = replace(tokens[at], text="put"), list(tokens[at + 1 : joint]), list(tokens[end:])
+            again = next((n for n in range(1, min(4, len(rest))) if rest[n].text == "it"), 0)
+            # "Cover the pot with the lid and lift it": the pot.
+            rest[again : again + bool(again)] = thing if again else []
+            return [*tokens[:at], put, *tokens[joint + 1 : end], upon, *thing, *rest]
+    return list(tokens)
 
 
 def brought(tokens: Sequence[Token]) -> list[Token]:
@@ -102,6 +123,10 @@ def end_state(body: list[Token], verb: str, manner: str | None) -> tuple[list[To
                   (words[n : n + 2] == ["to", "the"] and words[n + 2 :] in (["left"], ["right"])))  # fmt: skip
         end = next(amount, len(body))
         body = body[: end - (words[end - 1] == "by")]
+    above = next((n for n in range(1, len(body) - 1) if tuple(words[n : n + 2]) in _COMING), 0)
+    if above and above + 2 == len(body):
+        whole = replace(body[above], end=body[above + 1].end)
+        return body[:above], whole if manner != "other" else None
     if manner not in ("make", "move", "other", "stack") or (made_up and manner != "other"):
         return body, None
     for at in range(1, len(body)):

@@ -6,7 +6,7 @@ same way and otherwise: "the second", "the bottom one", "the other". So it is an
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunks import Chunk
@@ -16,13 +16,18 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
 
-def told_alike(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
-    """`chunks` with "the blue box" for "the blue one" where "the red box" stands as it does."""
+def told_alike(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] = ()) -> list[Chunk]:
+    """`chunks` with "the blue box" for "the blue one" where "the red box" stands as it does.
+
+    What a clause begins with may be told as one of the `known` was before.
+    """
     made = list(chunks)
     for at, piece in enumerate(chunks):
-        if piece.phrase is not None and (like := _like(made, at)) is not None:
+        if piece.phrase is not None and (like := _like(made, at, known)) is not None:
             told = replace(piece.phrase, definite=piece.phrase.definite and _told_by(piece.phrase)[0] != "other")
-            made[at] = replace(piece, phrase=with_noun(told, like, nouns))
+            whole = with_noun(told, like, nouns)
+            several = whole.plural or piece.text.lower().endswith(" ones")
+            made[at] = replace(piece, phrase=replace(whole, plural=several))
     return made
 
 
@@ -35,7 +40,7 @@ def _told_by(phrase: Phrase) -> tuple[str, object]:
     return ("place", min(places)) if places and phrase.definite else ("other" if phrase.other else "", "")
 
 
-def _like(chunks: Sequence[Chunk], at: int) -> Phrase | None:
+def _like(chunks: Sequence[Chunk], at: int, known: Collection[Phrase]) -> Phrase | None:
     """The phrase of which "the second", "a blue one" at chunk `at` names another; None where there is none.
 
     Of two that may be it is the one of which as much is said: "the red box holds two cups, the blue one ...". What is
@@ -44,6 +49,8 @@ def _like(chunks: Sequence[Chunk], at: int) -> Phrase | None:
     phrase = chunks[at].named
     (by, how), ends = _told_by(phrase), phrase.words.lower().split()[-1:]
     headless = phrase.kind == "pieces" and not phrase.said and (ends in (["one"], ["ones"]) or by in ("place", "other"))
+    if headless and by == "place" and at == 0 and not any(one.plural for one in known):
+        return next((one for one in reversed([*known]) if one.kind == "object" and _otherwise(one, by, how)), None)
     if not (headless and by and at and chunks[at - 1 - _led(chunks, at)].kind in ("joint", "clause")):
         return None
     before = [(n, one.phrase) for n, one in enumerate(chunks[:at]) if one.phrase and one.phrase.kind == "object"]
@@ -53,6 +60,12 @@ def _like(chunks: Sequence[Chunk], at: int) -> Phrase | None:
         several = any(other.plural and not _told_by(other)[0] for m, other in before if m > n)
         if _as_much(chunks, n, at) or not several:
             return one
+    if by == "colour" and not phrase.definite:
+        # "one mug on the desk and a blue one on the shelf"
+        placed = (
+            one for n, one in before if not one.plural and chunks[n + 1].kind == "rel" and _as_much(chunks, n, at)
+        )
+        return next(placed, None)
     return None
 
 

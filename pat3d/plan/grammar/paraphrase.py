@@ -36,7 +36,7 @@ from pat3d.plan.grammar.restated import bare, become, covering, emptied
 from pat3d.plan.grammar.several_places import in_several_places
 from pat3d.plan.grammar.shapes import of_what
 from pat3d.plan.grammar.stated import stated
-from pat3d.plan.grammar.surface_places import on_the_surface
+from pat3d.plan.grammar.surface_places import across_the_top, on_the_surface
 from pat3d.plan.grammar.towers import from_below, of_things
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -67,13 +67,13 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns), nouns), nouns)
+    tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
     tokens = covering(opened(stated(tokens), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
+    tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(_parentheses(text, tokens, nouns)))), nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
@@ -119,10 +119,27 @@ def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
             size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
             made[len(made) - size : len(made) - size] = inside
             at = end + 1
+        elif closes and len(inside) == 1 and (inside[0].text.isdecimal() or inside[0].text in lexicon.NUMBERS):
+            made = _numbered(made, inside[0], nouns)
+            at = end + 1
         else:
             made.append(token)
             at += 1
     return made
+
+
+def _numbered(tokens: Sequence[Token], number: Token, nouns: Nouns) -> list[Token]:
+    """`tokens`, which end in "white plates", with `number` before that; as they are where a number stands there."""
+    words = [token.text for token in tokens]
+    first = len(words) - next((n for n in (3, 2, 1) if n <= len(words) and nouns.match(words[-n:])), 0)
+    if first == len(words):
+        return [*tokens, number]
+    while first and (is_modifier(words[first - 1]) or is_colour_word(words[first - 1])):
+        first -= 1
+    known = first and (words[first - 1] in lexicon.NUMBERS or words[first - 1].isdecimal())
+    lead = first - (first > 0 and words[first - 1] in ("a", "an", "the", "some"))
+    before = replace(number, start=tokens[lead].start, end=tokens[lead].start)
+    return list(tokens) if known else [*tokens[:lead], before, *tokens[first:]]
 
 
 def _said(text: str, token: Token) -> str:
@@ -274,7 +291,14 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
-        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and before not in (".", ","))):
+        if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
+            # "The dog is out of the box": not in it.
+            kept.append(replace(token, text="outside"))
+            continue
+        # "A can stand", "a soda can stand" is of a can.
+        subject = before not in (".", ",") and before not in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
+        subject = subject and not is_modifier(before) and not nouns.match([before, token.text])
+        if token.text in _MODALS and (follower == "be" or (follower in _STANDING and subject)):
             continue
         if token.text == "'s" and before not in plain and not nouns.match([before]):
             kept.pop()

@@ -46,8 +46,8 @@ class Phrase:
     each: bool = False
     superlative: Modifiers = NO_MODIFIERS
     """What tells one of them: "the smallest of three boxes"."""
-    one_of: bool = False
-    """Read "one of two boxes"."""
+    some: int = 0
+    """How many of them are meant: 2 for "two of the five boxes"; 0 for all."""
     possessive: bool = False
     other: bool = False
     """Read "the other mug": not the one named before."""
@@ -121,7 +121,9 @@ class PhraseReader:
                 count = None if flags.get("each", False) else count
                 phrase, after = replace(inner[0], definite=inner[0].definite or single), inner[1]
                 if single and ((phrase.count or 1) > 1 or (phrase.plural and phrase.definite)):
-                    phrase, count = replace(phrase, one_of=True), phrase.count
+                    phrase, count = replace(phrase, some=1), phrase.count
+                elif count is not None and 1 < count < (phrase.count or 0) and phrase.definite:
+                    phrase, count = replace(phrase, some=count), phrase.count
         elif tokens[after].text == "of" and depth < 3 and (joined := self._of(run, after, count, depth)):
             phrase, after = joined
             count = phrase.count
@@ -346,6 +348,8 @@ class PhraseReader:
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
+            if amount is None and inner.head in lexicon.ALIKE_IN_PLURAL:
+                inner, amount = replace(inner, vague=True), lexicon.BARE_PLURAL
             if head in ("sets", "groups", "bunches", "collections", "clusters"):
                 # "two sets of keys": how many are in each is not said.
                 amount = (count or 2) * (inner.count or lexicon.BARE_PLURAL)

@@ -133,6 +133,9 @@ class Placing:
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
             self._relating.relate(children, link, landmark)
             return
+        if not begun and set(children) < set(world.together):
+            # "A cup and a bowl are on the table. The cup is on the left."
+            implied = [item for item in world.together if item not in children]
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
 
     def _in_between(self, at: int, children: list[Item], owners: list[Item]) -> None:
@@ -235,7 +238,7 @@ class Placing:
     def _begun(self, at: int, heads: Sequence[int]) -> list[Item]:
         """What the clause begins with, besides what the place is said of."""
         start = max((start for start in self._said.clauses if start <= at), default=0)
-        first = next((head for head in self._said.clauses[start] if head not in heads), None)
+        first = next((head for head in self._said.clauses.get(start, ()) if head not in heads), None)
         if first is None or first > min(heads, default=at):
             return []
         return self._said.ref(first)

@@ -14,14 +14,14 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.amounts import worked_out
 from pat3d.plan.grammar.chart import Node
-from pat3d.plan.grammar.chunks import Chunk
+from pat3d.plan.grammar.chunks import Chunk, trimmed
 from pat3d.plan.grammar.contradictions import refuse_both_sides
 from pat3d.plan.grammar.cutter import Cutter
 from pat3d.plan.grammar.denials import without_denials
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
-from pat3d.plan.grammar.instructions import Clause, clauses, known_verb, task_of
+from pat3d.plan.grammar.instructions import Clause, clauses, known_verb
 from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
@@ -38,6 +38,7 @@ from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
+from pat3d.plan.grammar.tasks import task_of
 from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
@@ -54,6 +55,8 @@ TRIED = 6
 """Readings of a sentence of which references and supports are worked out."""
 REMARKS = 4
 """Remarks of a sentence without which it is read."""
+TAILS = 3
+"""Readings without a tail of which another tail is left out."""
 CLOSE = 0.13
 """Readings that differ by less in cost are both told."""
 _CHOICE = '"or" is read as "and": everything named is placed.'
@@ -181,7 +184,7 @@ class GrammarPlanner:
         spans = Remarks(clause.tokens, self._nouns).spans()[:REMARKS]
         for left_out in [[span] for span in spans] + ([spans] if len(spans) > 1 else []):
             lighter = _copied(world)
-            kept = _without(clause.tokens, left_out)
+            kept = _doing_nothing(clause.tokens, left_out)
             if not Remarks(kept, self._nouns).things():
                 continue
             for start, end in left_out:
@@ -203,7 +206,7 @@ class GrammarPlanner:
             world.note(f'not modelled: "{clause.said or _quoted(text, clause.tokens[:-1])}"{done}')
             return world, None
         tails = Tails(clause.tokens, self._nouns, _known(world))
-        if told := self._without_one(text, clause, world, company, tails, tails.loose(failure.number)):
+        if told := self._without_one(text, clause, world, company, tails.loose(failure.number)):
             return told
         if told := self._beside(text, clause, world, company, tails.unrelated(failure.number)):
             return told
@@ -246,22 +249,32 @@ class GrammarPlanner:
         if world.groups and clause.manner is None and (tails.whole() or tails.depicts(_known(world))):
             world.note(f'not modelled: "{_quoted(text, clause.tokens[:-1])}"')
             return world, None
-        return self._without_one(text, clause, world, company, tails, tails.around(failure.number))
+        return self._without_one(text, clause, world, company, tails.around(failure.number))
 
     def _without_one(
-        self, text: str, clause: Clause, world: World, company: Collection[str], tails: Tails, spans: Sequence[Span]
+        self, text: str, clause: Clause, world: World, company: Collection[str], spans: Sequence[Span], depth: int = 1
     ) -> tuple[World, World | None] | None:
-        """`world` with what `clause` says without the first of `spans` without which it is read; None without."""
+        """`world` with what `clause` says without the first of `spans` without which it is read; None without.
+
+        Where none is enough, another such span is left out as well, `depth` times.
+        """
+        further: list[tuple[Clause, World, int]] = []
         for start, end in spans:
             lighter = _copied(world)
             lighter.note(f'not modelled: "{_quoted(text, clause.tokens[start:end])}"')
-            kept = _without(clause.tokens, [(start, end)])
-            if not (world.groups or Remarks(kept, self._nouns).things()):
+            kept = replace(clause, tokens=_without(clause.tokens, [(start, end)]))
+            if not (world.groups or Remarks(kept.tokens, self._nouns).things()):
                 continue
             try:
-                return self._told(text, replace(clause, tokens=kept), lighter, company)
+                return self._told(text, kept, _copied(lighter), company)
+            except UnreadError as error:
+                further.append((kept, lighter, error.number))
             except PromptError:
                 continue
+        for kept, lighter, number in further[:TAILS] if depth else ():
+            around = Tails(kept.tokens, self._nouns, _known(world)).around(number)
+            if told := self._without_one(text, kept, lighter, company, around, depth - 1):
+                return told
         return None
 
     def _adds_nothing(self, clause: Clause, world: World, failure: PromptError | None) -> bool:
@@ -290,7 +303,7 @@ class GrammarPlanner:
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         world.aside += [aside for aside in sentence.aside if aside not in world.aside]
         known = [group.phrase for group in world.groups if not group.replaced]
-        chunks = completed(_trimmed(sentence.chunks), self._nouns, known)
+        chunks = completed(trimmed(sentence.chunks), self._nouns, known)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):
@@ -330,7 +343,7 @@ class GrammarPlanner:
         for at, chunk in enumerate(chunks):
             if chunk.kind == "noun" and chunk.phrase and chunk.phrase.kind not in ("part", "pieces", "background"):
                 continue
-            rest = _trimmed([*chunks[:at], *chunks[at + 1 :]])
+            rest = trimmed([*chunks[:at], *chunks[at + 1 :]])
             if rest and (readings := Grammar(rest, self._likely).readings(moving=moving)):
                 if chunk.kind not in ("joint", "verb", "there", "clause"):
                     world.note(f'not understood: "{chunk.text}"')
@@ -365,6 +378,18 @@ def _without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...
     return tuple(token for at, token in enumerate(tokens) if not any(start <= at < end for start, end in spans))
 
 
+def _doing_nothing(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
+    """`tokens` without `spans`; of "is playing with a cat" what is left is "and there is a cat": nothing has it."""
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        ends = next((start for start, end in spans if end == at and token.text == "with"), 0)
+        if ends and tokens[ends - 1].text in lexicon.COPULAS:
+            made[-1:] = [replace(token, text=word) for word in ("and", "there", "is")]
+        elif not any(start <= at < end for start, end in spans):
+            made.append(token)
+    return tuple(made)
+
+
 def _quoted(text: str, tokens: Sequence[Token]) -> str:
     return text[tokens[0].start : tokens[-1].end].replace('"', "").strip(" ,")
 
@@ -376,17 +401,3 @@ def _known(world: World) -> dict[str, str]:
 
 def _copied(world: World) -> World:
     return copy.deepcopy(world, {id(world.likely): world.likely})
-
-
-def _trimmed(chunks: Sequence[Chunk]) -> list[Chunk]:
-    """`chunks` without joints at either end or in a row."""
-    made: list[Chunk] = []
-    for chunk in chunks:
-        if chunk.kind in ("joint", "clause") and (not made or made[-1].kind in ("joint", "clause")):
-            if made and chunk.kind == "joint" and made[-1].kind == "joint" and "and" in chunk.text:
-                made[-1] = replace(made[-1], text=", and")
-            continue
-        made.append(chunk)
-    while made and made[-1].kind in ("joint", "clause"):
-        made.pop()
-    return made

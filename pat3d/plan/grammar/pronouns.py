@@ -9,9 +9,10 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.relating import Relating
-from pat3d.plan.grammar.world import Item, World
+from pat3d.plan.grammar.world import Group, Item, World
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE
 
 _CLOSE = 0.1
@@ -41,10 +42,17 @@ class Pronouns:
         """What the clauses are about, by where they begin."""
         self.fronts: set[int] = set()
         """Phrases of the modifier that a clause opens with: "behind it there is"."""
+        self.asked = False
+        """Whether the clause tells what is to be done."""
         self.goals: set[int] = set()
         """Relation words that say where something is to go."""
         self.related: list[tuple[set[int], set[int]]] = []
         """Phrases that a relation joins, so that they are different objects."""
+
+    @property
+    def before(self) -> Sequence[Group]:
+        """What the clauses before have named."""
+        return self._earlier
 
     def ref(self, at: int) -> list[Item]:
         """What chunk `at` speaks of."""
@@ -96,7 +104,8 @@ class Pronouns:
             together = [item for each in reversed(before) for item in each if item not in other]
             candidates.append((0.15, list(dict.fromkeys(together))))
         alone = next((each[0] for each in before if plural and len(each) == 1), None)
-        if partners := [edge.parent for edge in self._world.laterals if edge.child is alone]:
+        partners = [edge.parent for edge in self._world.laterals if edge.child is alone]
+        if alone is not None and partners:
             # "A lamp is left of a sofa, and a plant stands between them."
             candidates.append((0.2, [alone, *(item for item in partners if item not in other)]))
         which = phrase.head == "which"
@@ -147,7 +156,10 @@ class Pronouns:
             # A stack is "it".
             if plural != (len(self._world.bases(items)) > 1):
                 cost += 0.7 if plural else 0.4
-            if not plural and other and items[0].group.noun == other[0].group.noun:
+            # "On the shelf is a thick book, and a thin one lies on it": on the book.
+            told = bool(other) and link is not None and link.kind == "on"
+            told = told and other[0].group.modifiers != NO_MODIFIERS
+            if not plural and other and not told and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box.
                 cost += 0.6
             if link is not None and other:

@@ -10,7 +10,6 @@ from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
-from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import (
     ALONG,
@@ -31,6 +30,7 @@ from pat3d.scene.relations import SUPPORT_KINDS
 
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
+_COUNTED = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1}
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
@@ -100,6 +100,8 @@ class References(Contrast):
             return (self._rest_of(phrase) or None) if phrase.other and phrase.definite else None
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
+        if (one := self._any_of(at, phrase)) is not None:
+            return one
         again = self._earlier if bare else []
         again = again or [
             group for group in world.groups if bare and not group.phrase.determined and not group.phrase.plural
@@ -122,7 +124,11 @@ class References(Contrast):
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
-                if group in besides and (same is same_head or phrase.modifiers.colours != own):
+                coloured = {own, *(item.colours for item in group.items if item.colours)}
+                if group in besides and (same is same_head or phrase.modifiers.colours not in coloured):
+                    continue
+                if group in besides and group.noun == phrase.noun and group.said != phrase.said:
+                    # "A couch faces the sofa": two.
                     continue
                 if same is same_head and set(phrase.modifiers.adjectives) - set(group.modifiers.adjectives):
                     continue
@@ -148,7 +154,7 @@ class References(Contrast):
         """The other cups of which one or some were told apart: "one of three cups ..., the other two cups"."""
         for group in (group for group in reversed(self._world.groups) if same_noun(group, phrase)):
             untold = [item for item in self._world.telling if item in group.items]
-            if group.phrase.one_of:
+            if group.phrase.some == 1:
                 untold = group.items[1:]
             elif group.phrase.superlative != NO_MODIFIERS:
                 untold = [item for item in group.items if not (item.place or item.told.size_word)]
@@ -206,24 +212,6 @@ class References(Contrast):
             return list(items)
         return items[: phrase.count or 1] if wanted else list(items)
 
-    @staticmethod
-    def _told_by_size(items: list[Item], phrase: Phrase) -> list[Item]:
-        """The one of `items` that is "the small box", or "the tallest box"; all where `phrase` gives no size."""
-        words = measured(phrase.modifiers)
-        shape = {*words.adjectives} & SHAPES
-        if not words.size_word and not shape:
-            return items
-        own = items[0].group.modifiers
-        own_size = words.size_word if words.size_word else next(iter(shape))
-        if own_size in (own.size_word, *own.adjectives):
-            return items
-        told = [item for item in items if own_size in (item.told.size_word, *item.told.adjectives)]
-        free = [item for item in items if not item.told.size_word and not {*item.told.adjectives} & SHAPES]
-        for item in () if told else free[:1]:
-            tell(item, words)
-            item.told = replace(item.told, adjectives=(*item.told.adjectives, *shape))
-        return told[:1] or free[:1] or items
-
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
         if not -len(items) <= index < len(items):
@@ -268,8 +256,16 @@ class References(Contrast):
             told = self._earlier or [group for group in world.groups if group.items]
             # "A mug and a jar are on a shelf": of the two, not of what they are on.
             below = {below.group for group in told for item in group.items for below in world.ancestors(item)}
-            told = ([group for group in told if group not in below] or told)[-2:]
+            told = [group for group in told if group not in below] or told
+            told = told[-2:] if self._earlier else told[:2]
             return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
+        listed = self._enumerated(at) if where in _COUNTED and phrase.words.lower() == f"the {where}" else []
+        if listed and len({item.group for item in listed}) == len(listed):
+            # "A cup and a bowl: the first is red, the second holds an egg."
+            found = listed[_COUNTED[where] : _COUNTED[where] + 1] if where != "last" else listed[-1:]
+            for item in found:
+                tell(item, replace(words, adjectives=()))
+            return found
         if phrase.head in ("both", "all"):
             self.all.add(at)
             return self._before(at)
@@ -290,7 +286,7 @@ class References(Contrast):
             return list(subject[0].group.items) if len(subject) == 1 else subject
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
-            groups.sort(key=lambda group: not group.phrase.one_of)
+            groups.sort(key=lambda group: not group.phrase.some)
         if rest and world.telling:
             told = world.telling[: phrase.count or len(world.telling)]
             world.telling = world.telling[len(told) :]
@@ -344,7 +340,8 @@ class References(Contrast):
             # "Four mugs, one of which holds a pen and another a spoon"
             return [self._world.telling.pop(0)]
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-        groups = [named[0][0].group] if named else self._world.groups[-1:]
+        before = [item.group for item in self._world.subject[:1]] or self._world.groups[-1:]
+        groups = [named[0][0].group] if named else before
         if (alike := self._carrier_like(at)) is not None:
             groups = [alike]
         counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
@@ -421,6 +418,10 @@ class References(Contrast):
         known = {colour for item in whole.items for colour in colours_of(item)}
         if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
             # "a blue cube and the yellow one": one more of the kind.
+            own = [item for item in whole.items if words.colours[0] in colours_of(item)]
+            if own and not phrase.definite and whole.exact and len(whole.items) > 1:
+                # "Four cubes: two red, a blue and a white one on a red one": of those that were counted.
+                return own[:count]
             several = phrase.plural or count > 1 or phrase.words.endswith("ones")
             more = replace(whole.phrase, words=phrase.words, count=phrase.count,
                            plural=several, modifiers=words, definite=phrase.definite)  # fmt: skip
@@ -477,7 +478,9 @@ class References(Contrast):
             return self._at(items, SAME.get(where, where), replace(phrase, modifiers=told))
         if told.size_word:
             tell(items[0], told)
-        return items[:1] if told.size_word or phrase.one_of else list(items)
+        if phrase.some > 1 and phrase.some < len(items):
+            self._world.telling = items[phrase.some :]
+        return items[: phrase.some or 1] if told.size_word or phrase.some else list(items)
 
     def not_understood(self, heads: Sequence[int], where: str = "") -> None:
         """Name those of `heads` that speak of nothing, and `where` they are said to be."""

@@ -199,7 +199,7 @@ class Relating:
         if not cycle:
             return
         for other in world.groups:
-            same = other is not children[0].group and other.cycle == cycle and not other.replaced
+            same = other is not children[0].group and {*other.cycle} == {*cycle} and not other.replaced
             if same and other.items and world.support(other.items[0]) in parents and not other.counted:
                 other.replaced = True
                 forget_count(world, other)
@@ -220,6 +220,9 @@ class Relating:
         self._settle(children, parents)
         if link.said == "over":
             world.over += _paired(children, parents)
+        lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
+        if link.said == "over" and not lies and not world.is_a(parent, lexicon.RACKS, lexicon.HOLLOW):
+            world.note(f"not arranged: {said.format('over')}; it is placed on it")
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
         tops = world.tops(parents)

@@ -68,6 +68,15 @@ def bare(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if token.text in ("itself", "themselves") and (before == "which" or (
                 nouns.match([before]) and (follower.text in FINITE or (follower.text,) in LINKS))):  # fmt: skip
             continue
+        if token.text == "one" and before == "each" and follower.text in FINITE:
+            continue
+        if token.text == "they" and follower.text == "each" and not before:
+            # "They each hold a ball."
+            continue
+        state = is_modifier(follower.text) or is_marked(follower.text)
+        if token.text in ("both", "all") and before in lexicon.COPULAS and len(kept) > 1 and state:
+            # "They are both yellow."
+            continue
         pointing = token.text == "that" and (follower.text in ("a", "an", ",") or follower.text in lexicon.NUMBERS)
         if pointing and any(link_at(tokens, at - n) == n for n in range(1, min(at, 4) + 1)):
             token = replace(token, text="it")

@@ -89,7 +89,8 @@ class Grammar(Goals):
     def _relation(self, link: Node, objects: Node) -> Node:
         """Read "on" + "a table": a modifier that waits for what it is said of."""
         at = link.start
-        cost = link.cost + objects.cost + 0.3 * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
+        set_off = 0.9 if link.start == 0 else 0.3
+        cost = link.cost + objects.cost + set_off * ("comma" in objects.flags) + 0.8 * ("finite" in objects.flags)
         said = self._link(at)
         if said.manner == "between":
             plural = len(objects.heads) > 1 or any(self._several(head) for head in objects.heads)
@@ -231,7 +232,7 @@ class Grammar(Goals):
         if link.inverse:
             made, extra = self._having(at, link, named, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
-        extra = self._arcs(link, named.heads, modifier.heads)
+        extra = self._arcs(link, named.heads, modifier.heads) + 0.5 * self._carries_it(link, named, modifier)
         if link.manner == "between" and len(named.heads) > 1 and self._is_pronoun(modifier.heads):
             # "two cushions and a cat between them": the cat is.
             cost += 0.9
@@ -246,6 +247,10 @@ class Grammar(Goals):
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
             cost += 1.0
+        ones = [self._phrase(head).words.lower().endswith(" one") for head in named.heads]
+        if len(ones) > 1 and ones[-1] and not any(ones[:-1]) and "finite" not in modifier.flags:
+            # "two white, one black, and a red one on top of a white one"
+            cost += 0.8 * all(self._phrase(head).kind in HEADLESS for head in named.heads)
         if any(self._said_of(named, head) for head in modifier.heads):
             cost += 1.2
         said = ("rel", at, named.heads, modifier.heads)

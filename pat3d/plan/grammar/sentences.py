@@ -20,7 +20,7 @@ CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    return _reordered(_conditions(_labelled(_cut(tokens, nouns))))
+    return _reordered(_exceptions(_conditions(_labelled(_cut(tokens, nouns)))))
 
 
 def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
@@ -103,18 +103,42 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
     return made
 
 
+def _exceptions(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "put all pens except the red one in the cup" as "there is a red pen" and "put all other pens ..."."""
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        at = next((n for n in range(3, len(words) - 4) if words[n] in ("except", "but") or
+                   words[n : n + 2] in (["apart", "from"], ["except", "for"])), 0)  # fmt: skip
+        the = at + 1 + (words[at + 1] in ("from", "for")) if at else 0
+        one = next((n for n in range(the + 2, min(the + 4, len(words))) if words[n] == "one"), 0) if the else 0
+        every = words.index("all") if "all" in words[:at] else 0
+        asked = base_verb(words[0]) == words[0] and every == 1 and one and words[the] == "the"
+        if not asked or not singulars(words[at - 1]) or any(link_at(sentence, n) for n in range(2, at)):
+            made.append(sentence)
+            continue
+        there = [replace(sentence[the], text=word) for word in ("there", "is", "a")]
+        noun = replace(sentence[one], text=singulars(words[at - 1])[0])
+        led = 2 + (words[2] in lexicon.DETERMINERS)
+        other = replace(sentence[led - 1], text="other")
+        made.append([*there, *sentence[the + 1 : one], noun, replace(sentence[-1])])
+        made.append([*sentence[:led], other, *sentence[led:at], *sentence[one + 1 :]])
+    return made
+
+
 def _reordered(told: list[list[Token]]) -> list[list[Token]]:
-    """`told` with "there are three plates" before the "every plate" of which it gives the number."""
+    """`told` with "there are three plates" before the "every plate", or "the plates", of which it gives the number."""
     made = list(told)
     for at, sentence in enumerate(made):
         words = [token.text for token in sentence]
-        if words[:2] not in (["there", "are"], ["there's", "a"]) or len(words) > 6:
+        follows_on = len(words) > 6 and {*words} & lexicon.PRONOUNS
+        if words[:2] not in (["there", "are"], ["there's", "a"]) or follows_on:
             continue
         nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
         for before in range(at):
             before_it = [token.text for token in made[before]]
-            follows = (two for one, two in zip(before_it, before_it[1:], strict=False) if one in ("each", "every"))
-            if any(word in nouns for word in follows):
+            named = [one for one, two in zip(before_it, before_it[1:], strict=False) if two in nouns]
+            if {*named} & {"each", "every"} or {*named} == {"the"}:
                 made.insert(before, made.pop(at))
                 break
     return made

@@ -1,7 +1,4 @@
-"""Several places of one thing, each in a clause of its own: "behind the plate, left of the bowl, and near the can".
-
-A clause may open with them too: "on the table, to the left of the plate, lies a fork".
-"""
+"""Several places of one thing, each in a clause of its own: "behind the plate, left of the bowl, and near the can"."""
 
 from __future__ import annotations
 
@@ -12,70 +9,12 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE, LINKS
-from pat3d.plan.grammar.sizes import extents
-from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
-_LARGER = 1.5
-"""Longest side of what carries something over that of this, at least."""
-_THERE = (["there", "is"], ["there", "are"], ["there's", "a"])
 
-
-def in_several_places(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+def in_several_places(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with every place of its subject said of it, behind it."""
-    return _each_place(_turned(list(tokens), nouns))
-
-
-def _turned(tokens: list[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "on the table next to the plate lies a fork" as "a fork lies on the table next to the plate"."""
-    words = [token.text for token in tokens]
-    size = link_at(tokens, 0)
-    first = _plain(words[:size])
-    if not first or words[size] not in lexicon.DETERMINERS:
-        return tokens
-    second = next((n for n in range(size + 1, len(words)) if link_at(tokens, n) and words[n] != "of"), 0)
-    comma = bool(second) and words[second - 1] == ","
-    if not second or any(each.mark or each.text in FINITE for each in tokens[size : second - comma]):
-        return tokens
-    link = words[second : second + link_at(tokens, second)]
-    after = second + len(link)
-    verb = next((n for n in range(after, len(words)) if tokens[n].mark or words[n] in FINITE or words[n] == "there"), 0)
-    verb += tokens[verb].text == ","
-    there = words[verb : verb + 2] in _THERE
-    beside = LINKS.get(tuple(link))
-    if beside is None or not (beside.kind in LATERAL_KINDS or beside.manner in ("between", "half")):
-        return tokens
-    if not (there or words[verb] in FINITE) or words[after] not in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
-        return tokens
-    within = _lies_on(words[size : second - comma], words[after : verb - (words[verb - 1] == ",")], nouns)
-    name = verb + 1 + there
-    if not (comma or within) or words[name] not in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
-        return tokens
-    end = next(n for n in range(name + 1, len(words)) if tokens[n].mark or link_at(tokens, n) or words[n] in FINITE)
-    stop = next(n for n in range(end, len(words)) if words[n] == "." or (words[n] == "," and words[end] != ","))
-    had = tokens[end:stop] if words[end] != "," else []
-    is_ = replace(tokens[verb], text=words[verb + 1] if there else words[verb])
-    places = [tokens[: second - comma], tokens[second : verb - (words[verb - 1] == ",")]]
-    joint = [replace(tokens[second], text=",", mark=True), replace(tokens[second], text="and", mark=False)]
-    again = [*_known(tokens[name:end]), is_, *places[1]]
-    return [*tokens[name:end], *had, is_, *places[0], *joint, *again, *tokens[end if words[end] == "," else stop :]]
-
-
-def _plain(words: Sequence[str]) -> bool:
-    """Whether `words` say where something is carried, or beside what."""
-    link = LINKS.get(tuple(words))
-    return link is not None and link.manner in ("place", "under") and not link.finite and bool(link.kind or link.says)
-
-
-def _lies_on(one: Sequence[str], other: Sequence[str], nouns: Nouns) -> bool:
-    """Whether what `other` names is so small beside what `one` names that it may be on it."""
-    found = [
-        next((match for size in (3, 2, 1) for end in (len(words), len(words) - 1)
-              if (match := nouns.match(list(words[max(end - size, 0) : end])))), None)
-        for words in (one, other)
-    ]  # fmt: skip
-    below, upon = (extents(match.noun) if match else () for match in found)
-    return bool(below and upon) and max(below) > _LARGER * max(upon)
+    return _each_place(list(tokens))
 
 
 def _known(tokens: Sequence[Token]) -> list[Token]:

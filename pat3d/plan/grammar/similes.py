@@ -18,6 +18,7 @@ _LOOKING = frozenset(
     {"shaped", "looking", "looks", "look", "painted", "styled", "designed", "formed", "coloured", "colored"}
 )
 _RESEMBLING = frozenset({"resembling", "resembles", "resemble", "imitating", "mimicking"})
+_FOLDED = frozenset({"folded", "rolled", "twisted", "carved", "shaped", "moulded", "molded", "crumpled"})
 _SERVING = frozenset({"serves", "serving", "acts", "acting", "used", "functions", "functioning", "doubles", "doubling"})
 _MEASURES = frozenset({"size", "colour", "color", "shape", "form", "height", "length", "width", "likeness", "style"})
 _BEFORE = frozenset(
@@ -54,6 +55,12 @@ def _opening(words: Sequence[str], at: int) -> int:
     """The word behind "shaped like", "as red as", "the size of" at word `at`; 0 where none of them stands there."""
     three = words[at : at + 3]
     if words[at] in _LOOKING and words[at + 1 : at + 2] in (["like"], ["as"]):
+        return at + 2
+    if (
+        words[at] in _FOLDED
+        and words[at + 1 : at + 2] in (["into"], ["in"])
+        and words[at + 2 : at + 3] in (["a"], ["an"])
+    ):
         return at + 2
     if words[at] in _SERVING and words[at + 1 : at + 2] == ["as"]:
         return at + 2

@@ -91,6 +91,19 @@ def _headless(words: Sequence[str], part: str) -> int:
     return size if not follower[0].isalnum() or follower in _BEHIND else 0
 
 
+def across_the_top(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a crate, and a saw across the top" as "a crate, and a saw across the crate", the one vessel."""
+    words = [token.text for token in tokens]
+    said = (["across", "the", "top"], ["over", "the", "top"])
+    at = next((n for n in range(len(words) - 3) if words[n : n + 3] in said and words[n + 3] != "of"), 0)
+    known = ((word, nouns.match([word])) for word in words[:at])
+    vessels = [word for word, found in known if found is not None and nouns.of_class(found.noun, lexicon.HOLLOW)]
+    if not at or len({*vessels}) != 1:
+        return list(tokens)
+    across = replace(tokens[at], text="across")
+    return [*tokens[:at], across, tokens[at + 1], replace(tokens[at + 2], text=vessels[0]), *tokens[at + 3 :]]
+
+
 def _told(words: Sequence[str], nouns: Nouns) -> str:
     """The surface of which the sentence names the edge, a corner or the middle, where it is one; empty otherwise."""
     found = set()

@@ -1,4 +1,7 @@
-"""What a deed is done with: the stick of "push the box with the stick" lies by itself, and is nothing the box has."""
+"""What a deed is done with: the stick of "push the box with the stick" lies by itself, and is nothing the box has.
+
+Only for what is moved: of a deed that no task does, nothing it is done with is there before.
+"""
 
 from __future__ import annotations
 
@@ -9,11 +12,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.vocabulary import Nouns
 
-_WORKING = frozenset({
-    "push", "pull", "hit", "poke", "cut", "slice", "chop", "carve", "sweep", "wipe", "drag", "nudge", "press", "tap",
-    "scrub", "clean", "knock", "spread", "flip", "roll", "open", "crush", "break", "peel", "touch", "shove", "dry",
-    "scoop", "brush", "rake", "turn", "tighten", "loosen", "measure", "point",
-})  # fmt: skip
+_WORKING = frozenset({"push", "sweep", "drag", "nudge", "shove", "slide", "shift", "clean", "collect", "plate"})
 """Deeds that are done with a tool more often than to what a thing holds."""
 _HANDLING = frozenset({"pick", "lift", "grab", "grasp", "take", "move", "put", "place", "transfer", "remove", "hold"})
 _TOOLS = (
