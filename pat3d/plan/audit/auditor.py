@@ -11,6 +11,7 @@ from pat3d.plan.audit.asked import requests
 from pat3d.plan.audit.chained import chained
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.each import for_each
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.members import shares
@@ -29,7 +30,6 @@ from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
-    for_each,
     grounded,
     insides,
     middle_ones,
