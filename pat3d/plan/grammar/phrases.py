@@ -11,6 +11,7 @@ from pat3d.plan.grammar import lexicon, shapes
 from pat3d.plan.grammar.boundaries import Boundaries
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, ORDINALS, Modifiers, is_modifier, read_modifiers, telling
+from pat3d.plan.grammar.senses import PACKED
 from pat3d.plan.grammar.shapes import PYRAMID, RINGS, USUAL_PYRAMID, can_be_pyramid, grid_size, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -221,8 +222,8 @@ class PhraseReader:
         """The phrase of a run without "of"."""
         words = [token.text for token in run]
         head, number = words[-1], run[-1].number
-        if head in lexicon.PACKED and self._definite and self._nouns.match([head]) is None:
-            packed = self._nouns.match(lexicon.PACKED[head].split())
+        if head in PACKED and self._definite and self._nouns.match([head]) is None:
+            packed = self._nouns.match(PACKED[head].split())
             if packed is not None:
                 return Phrase(kind="object", head=head, number=number, count=count, noun=packed.noun, said=packed.said,
                               modifiers=read_modifiers(words[:-1]))  # fmt: skip
