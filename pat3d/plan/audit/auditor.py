@@ -43,6 +43,7 @@ from pat3d.plan.audit.places import (
     unplaced,
     without,
 )
+from pat3d.plan.audit.ranked import ranked
 from pat3d.plan.audit.subjects import misattached
 from pat3d.plan.audit.text import Find, Mention, read, singulars
 from pat3d.plan.audit.unheard import unheard
@@ -186,6 +187,7 @@ class _Auditor(Compared):
             *sizes(self),
             *storeys(self),
             *heights(self),
+            *ranked(self),
         ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)
