@@ -9,7 +9,7 @@ from pat3d.plan.grammar.lexing import Token
 
 
 def is_number(word: str) -> bool:
-    """Whether `word` is a number, in letters or in digits, or stands for one."""
+    """Whether `word` is a number, in letters or in digits, or a token of lexing that has one: a measure."""
     return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
 
 
