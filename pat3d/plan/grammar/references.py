@@ -8,6 +8,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
+from pat3d.plan.grammar.displaced import NEARNESS
 from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
@@ -134,7 +135,9 @@ class References(Contrast):
                     continue
                 if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
                     continue
-                if same(group, phrase) and (found := self._chosen(group, phrase)):
+                if same(group, phrase) and (
+                    found := self._chosen(group, phrase, at if self._tells_place(at) else None)
+                ):
                     return found
         groups = [group for group in world.groups if group not in besides and not group.replaced]
         alike = [item for group in groups if same_noun(group, phrase)
@@ -182,7 +185,7 @@ class References(Contrast):
         named = [head for head in partners if head < at and self._chunks[head].phrase.kind in ("object", "unknown")]  # type: ignore[union-attr]
         return {item.group for head in named for item in self.known.get(head, ())}
 
-    def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
+    def _chosen(self, group: Group, phrase: Phrase, told: int | None = None) -> list[Item]:
         """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
         if self._told_otherwise(group, phrase):
             return []
@@ -210,7 +213,29 @@ class References(Contrast):
             items = self._told_by_size(items, phrase)
         if phrase.plural or len(items) == 1 or group.height > 1:
             return list(items)
-        return items[: phrase.count or 1] if wanted else list(items)
+        if wanted:
+            return items[: phrase.count or 1]
+        return self._singled(items, phrase, told)
+
+    def _singled(self, items: list[Item], phrase: Phrase, at: int | None) -> list[Item]:
+        """The one of several that "the cup to the left of the plate" means: one that was not singled out before.
+
+        It is told by the relation behind chunk `at`; where nothing tells it ("the cup") it is the one singled out last.
+        """
+        world, group = self._world, items[0].group
+        named = phrase.words.lower().startswith("the ") and phrase.count in (None, 1) and not phrase.each
+        matched = "same" in phrase.words.lower().split()
+        if not named or matched or not (group.phrase.plural and group.counted) or group.multiplied or group.cycle:
+            return items
+        before = [item for item in world.singled if item in items]
+        if at is None:
+            return before[-1:] or items[:1]
+        one = next((item for item in items if item not in before), items[-1])
+        world.singled.append(one)
+        if NEARNESS & {*(place := self._chunks[at + 1].text.lower()).split()}:
+            said = f"{phrase.words} {place} {self._chunks[at + 2].text}"
+            world.note(f'"{said}" is read as one of {len(group.items)}, next to it; how near the others are is open.')
+        return [one]
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
