@@ -144,3 +144,31 @@ def test_in_front_of_what_carries_the_rest_is_said_to_be_read_so():
 )
 def test_what_is_on_it_is_on_the_dish_that_is_told_of(prompt: str, relations: set[str]):
     assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "name"),
+    [
+        ("A green chair and a matching stool stand on a mat.", "green stool"),
+        ("A wooden crate and two matching bowls are on a desk.", "wooden bowl 2"),
+        ("A steel pot and bowl are on a table.", "steel bowl"),
+        ("A wooden table and bench.", "wooden bench"),
+        ("A wooden bowl and banana.", "banana"),
+        ("A wooden table and sofa.", "sofa"),
+    ],
+)
+def test_what_matches_and_what_is_listed_is_of_the_same_colour_and_material(prompt: str, name: str):
+    plan = PLANNER.plan(prompt)
+    assert name in {obj.name for obj in plan.objects}
+    assert not plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"),
+    [
+        ("Put a mug on the top shelf and a jar on the middle shelf.", "middle"),
+        ("A blue chair on a mat with two matching stools.", "matching"),
+    ],
+)
+def test_a_word_without_effect_is_in_a_note(prompt: str, said: str):
+    assert any(f'"{said}"' in note for note in PLANNER.plan(prompt).notes)
