@@ -44,6 +44,9 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
         ("Stack the three bowls, the green one at the bottom, the red one on top.",
          'not modelled: "Stack the three bowls, the green one at the bottom, the red one on top": no task does that.'),
+        ("Pick up the largest jug.", 'not modelled: "largest" of "jug": there is only one'),
+        ("A pen is on the second shelf and a book on the fourth shelf.",
+         'counted otherwise: "the fourth shelf"; there are 2'),
         ("A lamp is over a table.", 'not arranged: "A lamp" over "a table"; it is placed on it'),
         ("The tower with three bricks has a red brick at the top.",
          'counted otherwise: "three bricks"; 4 are stacked'),
@@ -172,3 +175,18 @@ def test_what_matches_and_what_is_listed_is_of_the_same_colour_and_material(prom
 )
 def test_a_word_without_effect_is_in_a_note(prompt: str, said: str):
     assert any(f'"{said}"' in note for note in PLANNER.plan(prompt).notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "colour"),
+    [
+        ("The jug on the tray is green in color.", "green"),
+        ("The jug on a tray has a green colour.", "green"),
+        ("A jug of a green color stands on a tray.", "green"),
+    ],
+)
+def test_a_colour_by_its_noun_is_that_of_the_thing(prompt: str, colour: str):
+    assert {(obj.name, obj.colours) for obj in PLANNER.plan(prompt).objects} == {
+        (f"{colour} jug", (colour,)),
+        ("tray", ()),
+    }

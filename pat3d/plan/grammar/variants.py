@@ -9,12 +9,13 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
-from pat3d.plan.grammar.modifiers import is_marked, is_modifier
+from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier
 from pat3d.plan.grammar.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _STANDS = ("table", "stand", "base", "pedestal", "shelf", "tray", "plate", "support", "seat", "platform", "holder")
 _COLOURS = ("colors", "colours")
+_COLOUR = ("color", "colour", "hue")
 _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     **{("all", "of", the): ("all", the) for the in ("the", "these", "those", "my", "your", "our", "his", "her")},
     ("near", "by"): ("nearby",),
@@ -65,6 +66,7 @@ _RAINBOWS = tuple(
     for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
                  f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
 )  # fmt: skip
+_OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
 _SEERS = frozenset({"i", "we", "you", "one"})
 _MADE = frozenset({"made", "crafted", "built", "constructed", "carved", "formed", "fashioned"})
@@ -76,7 +78,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    tokens = _compared(_rainbow(_plain(_unpictured(tokens)), nouns), nouns)
+    tokens = _compared(_rainbow(_plain(_hued(_unpictured(_begun(tokens)))), nouns), nouns)
     return _made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
 
 
@@ -92,6 +94,33 @@ def _unpictured(tokens: Sequence[Token]) -> Sequence[Token]:
     if len(words) > 6 and words[-4] == "in" and words[-3] in ("this", "the") and words[-2] in _PICTURES:
         return [*tokens[:-4], tokens[-1]]
     return tokens
+
+
+def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    words = [token.text for token in tokens]
+    opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
+
+
+def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "is red in color", "has a red color" as "is red", "of a red color" as "that is red"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 4]]
+        if words[:1] == ["in"] and words[1:2] and words[1] in _COLOUR and made and is_colour_word(made[-1].text):
+            at += 2
+            continue
+        whole = len(words) == 4 and words[1] == "a" and is_colour_word(words[2]) and words[3] in _COLOUR
+        if whole and words[0] in ("has", "have", "of", "with"):
+            joint = () if words[0] in ("has", "have") else (replace(tokens[at], text="that"),)
+            made += [*joint, replace(tokens[at], text="is"), replace(tokens[at + 2], end=tokens[at + 3].end)]
+            at += 4
+            continue
+        made.append(tokens[at])
+        at += 1
+    return made
 
 
 def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
