@@ -45,6 +45,11 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
         for serving in ("serving", "acting", "used")
         for stand in _STANDS
     },
+    **{
+        ("so", "that", they, sit): ("so", "that", they, "are")
+        for they in ("they", "it")
+        for sit in ("sit", "sits", "stand", "stands", "lie", "lies", "rest", "rests")
+    },
     ("atleast",): ("at", "least"),
     ("atmost",): ("at", "most"),
     ("with", "no"): ("without",),
