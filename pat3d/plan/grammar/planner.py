@@ -113,7 +113,7 @@ class GrammarPlanner:
         told = [clause for sentence in spoken for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
-        world.notes += [f'not modelled: "{said}"' for said in (*(_quoted(text, span) for span in talk), *beside_robot)]
+        world.notes += [f'not modelled: "{said}"' for said in (*(quoted(text, span) for span in talk), *beside_robot)]
         world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
