@@ -11,16 +11,18 @@ from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.number_words import counted_before, number_of
 from pat3d.plan.grammar.vocabulary import Nouns
 
+_DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
+_EVENLY = frozenset({"equally", "evenly"})
+
 
 def shared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "six apples divided equally between two bowls" as "three apples in each of two bowls"."""
     words = [token.text for token in tokens]
     for at in range(2, len(words) - 3):
-        first = at - (words[at - 1] in ("equally", "evenly"))
-        between = at + (words[at] in ("equally", "evenly"))
-        if words[first] not in ("split", "divided", "distributed", "shared", "spread") or words[at] != words[first]:
+        if words[at] not in _DIVIDED:
             continue
-        between = at + 1 + (words[at + 1] in ("equally", "evenly"))
+        first = at - (words[at - 1] in _EVENLY)
+        between = at + 1 + (words[at + 1] in _EVENLY)
         evenly = between > at + 1 or first < at
         among = words[between : between + 1] in (["between"], ["among"], ["over"], ["across"])
         number = between + 1 + (words[between + 1] == "the")

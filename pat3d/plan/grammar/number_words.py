@@ -13,9 +13,14 @@ def is_number(word: str) -> bool:
     return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
 
 
+def numeral(word: str) -> int:
+    """The number that `word` is, in letters or in digits; 0 where it is none."""
+    return lexicon.NUMBERS.get(word, int(word[:3]) if word.isascii() and word.isdecimal() else 0)
+
+
 def number_of(word: str) -> int:
     """The number that `word` is; 0 where it is none of several things."""
-    number = lexicon.NUMBERS.get(word, int(word[:3]) if word.isascii() and word.isdecimal() else 0)
+    number = numeral(word)
     return number if number > 1 and word not in ("both", "couple") else 0
 
 
