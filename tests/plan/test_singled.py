@@ -53,3 +53,14 @@ def test_the_one_named_again_is_the_same():
     )
     assert related(plan, "in") == [("spoon", "red jar")]
     assert str(plan.task) == "pick:red jar"
+
+
+def test_each_speaks_of_all_that_are_listed():
+    plan = read("Two green jars and a white one on a shelf, with a pencil in each.")
+    assert sorted(parent for _, parent in related(plan, "in")) == ["green jar 1", "green jar 2", "white jar"]
+    assert len(related(plan, "on")) == 3
+    plan = read("A bowl and two jars are on a shelf, each with an egg in it.")
+    assert sorted(parent for _, parent in related(plan, "in")) == ["bowl", "jar 1", "jar 2"]
+    plan = read("Two sealed cartons and an open one on a shelf, with a label on each.")
+    assert [obj.noun for obj in plan.objects].count("box") == 3
+    assert len(related(plan, "on")) == 3

@@ -29,6 +29,8 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
 from pat3d.scene.relations import SUPPORT_KINDS
 
+_APART = 0.7
+"""What it costs where only some of those of which "each" speaks are on a tray, or one of them is on "each"."""
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
 _COUNTED = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1}
@@ -304,8 +306,15 @@ class References(Contrast):
             self.each.add(at)
             plural = self._plural_before(at)
             listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
-            if len(listed) > 1 and all(len(self.known[head]) > 1 for head in listed):
-                # "Two mugs and two bowls, each with a spoon"
+            several = [len(self.known[head]) > 1 for head in listed]
+            alike = (
+                any(several) and len(plural) == sum(several) and self._alike([self.known[head][0] for head in listed])
+            )
+            if len(listed) > 1 and (all(several) or alike):
+                # "Two mugs and two bowls, each with a spoon", "two red cups and a blue one, with a spoon in each"
+                apart = any(one & {*listed} and not {*listed} <= one for one, _ in self.related)
+                onto = any(one & {*listed} and at in other for one, other in self.related)
+                self.cost += _APART * (apart + onto)
                 return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
@@ -358,6 +367,12 @@ class References(Contrast):
             return list(free[len(free) - count :])
         world.telling = whole.items[count:]
         return list(whole.items[:count])
+
+    def _alike(self, items: Sequence[Item]) -> bool:
+        """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
+        return len({item.group.noun for item in items}) == 1 or all(
+            self._world.is_a(item, lexicon.HOLLOW) for item in items
+        )
 
     def _another(self, at: int, phrase: Phrase) -> list[Item]:
         """The next of those that are told of one by one, or one more of what was named first in the sentence."""
