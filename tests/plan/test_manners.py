@@ -26,6 +26,7 @@ def planner() -> GrammarPlanner:
         ),
         ("Two red jars and two green jars alternate in a row.", "Two red jars and two green jars are in a row.",
          "alternate"),
+        ("Two trays labelled A and B on a desk.", "Two trays on a desk.", "labelled A and B"),
         ("Clear everything off the shelf except the clock.", "The clock is on the shelf.",
          "Clear everything off the shelf except the clock"),
     ],
@@ -57,3 +58,42 @@ def test_what_who_speaks_has_is_there(planner: GrammarPlanner) -> None:
 
     assert [obj.noun for obj in plan.objects] == ["mug", "tray"]
     assert plan.task is not None
+
+
+def test_labels_tell_apart(planner: GrammarPlanner) -> None:
+    plan = planner.plan("Three crates labelled A, B and C stand in a row. Crate B holds a mug.")
+
+    assert [str(relation) for relation in plan.relations if relation.supports] == ["mug in crate 2"]
+
+
+def test_what_is_given_is_no_thing(planner: GrammarPlanner) -> None:
+    plan = planner.plan("Pick up the jar and give it a quick shake.")
+
+    assert str(plan.task) == str(planner.plan("Pick up the jar.").task)
+    assert any("give it a quick shake" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "same"),
+    [
+        (
+            "Five mugs in a row, alternating white and green.",
+            "Five mugs in a row, white, green, white, green and white.",
+        ),
+        ("The jar on the shelf is a green jar.", "The jar on the shelf is green."),
+        ("The jar is a green one.", "The jar is green."),
+        ("Restock the shelf by putting the jar on the shelf.", "Put the jar on the shelf."),
+    ],
+)
+def test_the_same_scene(planner: GrammarPlanner, sentence: str, same: str) -> None:
+    plan, plain = planner.plan(sentence), planner.plan(same)
+
+    assert sorted((obj.name, obj.colours) for obj in plan.objects) == sorted(
+        (obj.name, obj.colours) for obj in plain.objects
+    )
+    assert (set(plan.relations), plan.task) == (set(plain.relations), plain.task)
+
+
+def test_an_unnamed_thing_is_at_fault(planner: GrammarPlanner) -> None:
+    with pytest.raises(PromptError, match="Pick up the red object"):
+        planner.plan("Pick up the red object and put it on the tray.")

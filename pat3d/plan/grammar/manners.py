@@ -10,6 +10,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.denials import Told
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.numbered import LABELLED, labels_end
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _STYLES = (("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
@@ -21,7 +22,7 @@ _EVERYTHING = frozenset({"everything", "anything", "all"})
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (_style, _by_measure, _such_that, _alternate, _all_but):
+    for told in (_style, _labels, _by_measure, _such_that, _alternate, _all_but):
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)
@@ -47,6 +48,14 @@ def _goes_on(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
         end = next(n for n in range(at, len(tokens)) if tokens[n].mark)
         return any(nouns.match([token.text]) is not None for token in tokens[at + 1 : end])
     return link_at(tokens, at) > 0 or tokens[at].text in lexicon.RELATIVES | {"with", "holding", "holds"}
+
+
+def _labels(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "three bins labelled A, B and C in a row" as "three bins in a row"."""
+    for at in range(2, len(words) - 3):
+        if words[at] in LABELLED and nouns.match([words[at - 1]]) and (end := labels_end(tokens, at)):
+            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+    return None
 
 
 def _by_measure(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
