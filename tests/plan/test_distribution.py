@@ -225,3 +225,19 @@ def test_a_part_that_lies_apart_is_named_in_a_note(planner):
     plan = planner.plan("A bottle stands on a table, its cap beside it.")
     assert [str(rel) for rel in plan.relations] == ["bottle on table"]
     assert 'not modelled: "its cap beside it"' in plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "owners", "had"),
+    [
+        ("Two plates of steak on a desk.", ["plate 1", "plate 2"], {"steak": 1}),
+        ("Three crates with bread stand on a bench.", ["crate 1", "crate 2", "crate 3"], {"bread": 1}),
+        ("Three trays with cake on them.", ["tray 1", "tray 2", "tray 3"], {"cake": 1}),
+    ],
+)
+def test_what_is_named_without_a_number_is_had_by_each(
+    planner: GrammarPlanner, prompt: str, owners: list[str], had: dict[str, int]
+):
+    plan = planner.plan(prompt)
+    assert {owner: carries(plan)[owner] for owner in owners} == {owner: Counter(had) for owner in owners}
+    assert not flagged(plan)

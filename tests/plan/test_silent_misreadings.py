@@ -150,6 +150,34 @@ def test_what_is_on_it_is_on_the_dish_that_is_told_of(prompt: str, relations: se
 
 
 @pytest.mark.parametrize(
+    ("prompt", "name"),
+    [
+        ("A green chair and a matching stool stand on a mat.", "green stool"),
+        ("A wooden crate and two matching bowls are on a desk.", "wooden bowl 2"),
+        ("A steel pot and bowl are on a table.", "steel bowl"),
+        ("A wooden table and bench.", "wooden bench"),
+        ("A wooden bowl and banana.", "banana"),
+        ("A wooden table and sofa.", "sofa"),
+    ],
+)
+def test_what_matches_and_what_is_listed_is_of_the_same_colour_and_material(prompt: str, name: str):
+    plan = PLANNER.plan(prompt)
+    assert name in {obj.name for obj in plan.objects}
+    assert not plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"),
+    [
+        ("Put a mug on the top shelf and a jar on the middle shelf.", "middle"),
+        ("A blue chair on a mat with two matching stools.", "matching"),
+    ],
+)
+def test_a_word_without_effect_is_in_a_note(prompt: str, said: str):
+    assert any(f'"{said}"' in note for note in PLANNER.plan(prompt).notes)
+
+
+@pytest.mark.parametrize(
     ("prompt", "colour"),
     [
         ("The jug on the tray is green in color.", "green"),

@@ -26,6 +26,7 @@ from pat3d.plan.grammar.interpret import Interpreter
 from pat3d.plan.grammar.left_out import doing_nothing, quoted, without
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.manners import without_manners
 from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
@@ -39,6 +40,7 @@ from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
+from pat3d.plan.grammar.talk import without_talk
 from pat3d.plan.grammar.tasks import task_of
 from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
@@ -107,10 +109,11 @@ class GrammarPlanner:
         check_language(text)
         tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
+        spoken, talk = without_talk(sentences(tokens, self._nouns), self._nouns)
+        told = [clause for sentence in spoken for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
-        world.notes += [f'not modelled: "{said}"' for said in beside_robot]
+        world.notes += [f'not modelled: "{said}"' for said in (*(quoted(text, span) for span in talk), *beside_robot)]
         world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
@@ -135,7 +138,8 @@ class GrammarPlanner:
             PromptError: the sentence leaves open what is to be there.
         """
         sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
-        denied = tuple(quoted(text, span) for span in denials)
+        sentence, manners = without_manners(sentence, self._nouns)
+        denied = tuple(quoted(text, span) for span in (*denials, *manners))
         try:
             told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
             return [replace(told[0], aside=(*denied, *told[0].aside)), *told[1:]]

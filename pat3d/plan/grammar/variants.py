@@ -45,6 +45,11 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
         for serving in ("serving", "acting", "used")
         for stand in _STANDS
     },
+    **{
+        ("so", "that", they, sit): ("so", "that", they, "are")
+        for they in ("they", "it")
+        for sit in ("sit", "sits", "stand", "stands", "lie", "lies", "rest", "rests")
+    },
     ("atleast",): ("at", "least"),
     ("atmost",): ("at", "most"),
     ("with", "no"): ("without",),
@@ -66,6 +71,7 @@ _RAINBOWS = tuple(
     for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
                  f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
 )  # fmt: skip
+_OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
 _SEERS = frozenset({"i", "we", "you", "one"})
 _MADE = frozenset({"made", "crafted", "built", "constructed", "carved", "formed", "fashioned"})
@@ -77,7 +83,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    tokens = _compared(_rainbow(_plain(_hued(_unpictured(tokens))), nouns), nouns)
+    tokens = _compared(_rainbow(_plain(_hued(_unpictured(_begun(tokens)))), nouns), nouns)
     return _made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
 
 
@@ -93,6 +99,13 @@ def _unpictured(tokens: Sequence[Token]) -> Sequence[Token]:
     if len(words) > 6 and words[-4] == "in" and words[-3] in ("this", "the") and words[-2] in _PICTURES:
         return [*tokens[:-4], tokens[-1]]
     return tokens
+
+
+def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    words = [token.text for token in tokens]
+    opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 
 def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
