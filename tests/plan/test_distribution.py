@@ -117,6 +117,18 @@ def test_two_are_moved_where_each_is_told_by_its_place(planner):
     assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
 
 
+def test_one_and_the_other_are_both_moved(planner):
+    plan = planner.plan("Put one mug on the tray and the other on the shelf.")
+    assert not any(rel.supports for rel in plan.relations)
+    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+
+
+def test_two_are_moved_where_each_is_told_by_where_it_is(planner):
+    plan = planner.plan("Move the mug on the desk to the tray and the one on the table to the shelf.")
+    assert {str(rel) for rel in plan.relations} == {"mug 1 on desk", "mug 2 on table"}
+    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+
+
 def test_two_are_moved_where_each_is_told_by_its_colour(planner):
     plan = planner.plan("Put the red mug on the tray and the blue one on the shelf.")
     assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
