@@ -42,7 +42,7 @@ KINDS: dict[Place, frozenset[str]] = {
     "far": frozenset({"far_from"}),
     "hanging": frozenset({"hangs_from"}),
     "from": frozenset({"on", "in", "hangs_from", "far_from"}),
-    "across": frozenset({"across", "on"}),
+    "across": frozenset({"across", "on", "left_of", "right_of"}),
     "its left": frozenset({"left_of"}),
     "its right": frozenset({"right_of"}),
 }  # fmt: skip

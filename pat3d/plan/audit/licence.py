@@ -273,7 +273,8 @@ def _landmarks(it: Compared, claim: Claim) -> set[str]:
     """What `claim` may lead to: what is named behind it and is joined to that, or all that a pronoun may mean."""
     if claim.of is not None:
         return _names(it, _joined(it, claim.of))
-    one_of_several = it.said.words[claim.end - 1] in ("other", "others") and "one" in it.said.words[: claim.at]
+    last = {*it.said.words[claim.end - 1 : claim.end]}
+    one_of_several = bool(last & {"other", "others"}) and "one" in it.said.words[: claim.at]
     nouns = [obj.noun for obj in it.plan.objects]
     return {obj.name for obj in it.plan.objects if not one_of_several or nouns.count(obj.noun) > 1}
 

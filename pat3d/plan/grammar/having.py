@@ -44,6 +44,10 @@ class Having(Judging):
                 # "A pot on a stove with flour beside the stove"
                 placed |= set(fact[2])
                 cost += 0.2
+            aside = apart and self._link(fact[1]).kind in LATERAL_KINDS
+            if aside and all(self._again_named(head, tuple(placed)) for head in fact[3]):
+                # "A monitor with a keyboard in front of it and a mouse beside the keyboard"
+                placed |= set(fact[2])
             if (
                 fact[0] == "rel"
                 and set(fact[2]) <= set(modifier.heads)
@@ -66,7 +70,9 @@ class Having(Judging):
                 placed |= set(fact[2])
                 cost += 0.2
             facts.append(fact)
-        having = {owner for fact in modifier.facts if fact[0] == "have" for owner in fact[2]}
+        # "A basket with a towel and a bowl which holds two lemons": what a relative clause tells ends no list.
+        told = [fact for fact in modifier.facts if fact[0] == "have" and self._chunks[fact[1] - 1].kind != "which"]
+        having = {owner for fact in told for owner in fact[2]}
         own = having & set(modifier.heads)
         if own and own == set(modifier.heads[1:]) and not self._likely.floor(self._noun(owners[0])):
             # "A basket with two apples, a bowl with an egg and a jar with a pen": each has its own.
@@ -90,6 +96,11 @@ class Having(Judging):
         ]
         if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in lateral):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
+            cost += 0.8
+        first, last = min(left, default=0), max(left, default=0)
+        amid = [fact for fact in lateral if first <= fact[2][0] < fact[3][-1] < last and not self._definite(fact[3])]
+        if self._likely.hollow(owner) and any(self._link(fact[1]).manner == "place" for fact in amid):
+            # "A basket of lemons next to a jug and a glass": the glass is not in it.
             cost += 0.8
         if left:
             facts.append(("have", at, owners, left))

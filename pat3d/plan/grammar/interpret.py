@@ -424,7 +424,16 @@ class Interpreter(Placing):
             for place in places:
                 if place is not None and place.part in _ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
-        self._relating.relate(children, link, parents)
+        below = self._world.is_table(parents[0]) and not self._world.on_floor(children[0])
+        if link.says == "across" and self._chunks[at - 1].text == "facing" and len(children) == 2 and not below:
+            # "Two cups facing each other across a plate": it is between them.
+            self._relating.relate(parents[:1], Link(manner="between", kind="right_of"), children)
+            return
+        rest = phrase is not None and phrase.definite and (phrase.other or phrase.head in ("rest", "others"))
+        one_by_one = rest and link.kind in LATERAL_KINDS and link.kind != "around" and len(children) == 1
+        # "the red cup is behind the other two": behind each of them
+        for landmarks in [[parent] for parent in parents] if one_by_one else [parents]:
+            self._relating.relate(children, link, landmarks)
         self._landmarks[at] = self._relating.landmark
 
     def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:

@@ -19,6 +19,10 @@ HEADLESS = ("pieces", "part")
 
 _NATURAL = 0.25
 """Cost of a relation below which people expect it."""
+_CARRYING = 0.35
+"""Cost of being on something below which that can carry it."""
+_HARDLY = 3.0
+"""Cost of what hardly happens."""
 
 
 class Judging:
@@ -51,7 +55,8 @@ class Judging:
     def _said_of(self, named: Node, parent: int) -> bool:
         """Whether `named` is related to what `parent` speaks of already, or has it.
 
-        "a pot on the stove ... beside the stove", "a plate with a knife, ... behind the knife"
+        "a pot on the stove ... beside the stove", "a plate with a knife, ... behind the knife", "a monitor with a mouse
+        beside it ... behind the mouse"
         """
         phrase = self._phrase(parent)
         if not phrase.definite:
@@ -59,6 +64,8 @@ class Judging:
         related = [(fact[2], fact[3][:1]) for fact in named.facts if fact[0] == "rel"]
         related += [(fact[2], fact[3]) for fact in named.facts if fact[0] == "have"]
         related += [(fact[3], fact[2]) for fact in named.facts if fact[0] == "place"]
+        its = {fact[1]: fact[2] for fact in named.facts if fact[0] == "bind"}
+        related += [(its[fact[3][0]], fact[2]) for fact in named.facts if fact[0] == "rel" and fact[3][0] in its]
         return any(
             set(those) & set(named.heads) and any(_same(self._phrase(head), phrase) for head in by)
             for those, by in related
@@ -103,17 +110,21 @@ class Judging:
             return max(*costs, 1.3 * large)
         return sum(costs) / max(len(costs), 1)
 
-    def _carries_it(self, link: Link, named: Node, modifier: Node) -> bool:
-        """Whether what is "on it" in `modifier` may be on `named`: "a plate on a desk with a bun on it"."""
+    def _carries_it(self, link: Link, named: Node, modifier: Node) -> float:
+        """How surely what is "on it" in `modifier` is on `named`: "a plate on a desk with a bun on it"."""
         if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) != 1:
-            return False
+            return 0.0
         its = {fact[1] for fact in modifier.facts if fact[0] == "bind" and fact[2] == modifier.heads}
         rels = [fact for fact in modifier.facts if fact[0] == "rel" and its & set(fact[3])]
         carried = [fact for fact in rels if self._link(fact[1]).kind in SUPPORT_KINDS]
         owner = self._noun(named.heads[0])
-        return any(
-            self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), owner) < _NATURAL for fact in carried
-        )
+        costs = [self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), owner) for fact in carried]
+        # "On top of it" is said where a table carries more than this: "a radio on a desk with a cup on top of it".
+        on_top = any("top" in self._chunks[fact[1]].words for fact in carried)
+        cost = min(costs, default=_HARDLY)
+        if cost < _CARRYING and on_top:
+            return 0.7
+        return 0.5 if cost < _NATURAL else 0.4 if cost < _CARRYING else 0.0
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:
         return len(heads) == 1 and (

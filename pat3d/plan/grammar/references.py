@@ -61,6 +61,10 @@ class References(Contrast):
                 self.known[at] = self._the_one(found, phrase)
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
+                level = position(phrase)
+                if level in (*lexicon.LEVELS, "middle") and phrase.head in lexicon.STORAGE_PARTS and len(found) == 1:
+                    # "A shelf with a vase on the top shelf": it is made with one place to put things.
+                    world.note(f'not modelled: "{level}" of "{phrase.words}"')
                 return
             generic = self.known.get(kind, []) if kind is not None else []
             owner = next((item.group for item in generic if item.group.cycle), None)

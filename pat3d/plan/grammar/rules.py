@@ -222,7 +222,7 @@ class Grammar(Listing):
         if link.inverse:
             made, extra = self._having(at, link, named, modifier)
             return Node("L", named.start, cost + extra, named.heads, (*named.facts, *made), named.joints, flags)
-        extra = self._arcs(link, named.heads, modifier.heads) + 0.5 * self._carries_it(link, named, modifier)
+        extra = self._arcs(link, named.heads, modifier.heads) + self._carries_it(link, named, modifier)
         if link.manner == "between" and len(named.heads) > 1 and self._is_pronoun(modifier.heads):
             # "two cushions and a cat between them": the cat is.
             cost += 0.9

@@ -13,6 +13,8 @@ from pat3d.scene.relations import SUPPORT_KINDS
 
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
+_GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
+"""Verbs by which what was picked up is no longer where it was, and at no place of the scene."""
 _ELSEWHERE = re.compile(r"\b(?:on|onto|in|into|at|from)\b (?!(?:top of )?(?:each|one|another)|an? )|,", re.IGNORECASE)
 """Words by which a stack is said to stand somewhere, or more is said of it."""
 
@@ -53,11 +55,12 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
 
 
 def _is_put(picked: Step, steps: Sequence[Step]) -> bool:
-    """Whether one of `steps` behind `picked` says where its things are to go."""
+    """Whether one of `steps` behind `picked` says where its things are to go; handing over is to no place."""
     later = steps[list(steps).index(picked) + 1 :]
     verbs = [next((base_of(word) for word in step.said.lower().split() if base_of(word) in VERBS), "")
              for step in later if set(step.items) & set(picked.items)]  # fmt: skip
-    return any(VERBS.get(verb, "other") != "other" for verb in verbs)
+    nowhere = _GIVING_AWAY if not any(step.goal for step in later) else frozenset()
+    return any(VERBS.get(verb, "other") != "other" and verb not in nowhere for verb in verbs)
 
 
 def _unsaid(step: Step, world: World) -> list[str]:
