@@ -64,3 +64,23 @@ def test_each_speaks_of_all_that_are_listed():
     plan = read("Two sealed cartons and an open one on a shelf, with a label on each.")
     assert [obj.noun for obj in plan.objects].count("box") == 3
     assert len(related(plan, "on")) == 3
+
+
+def test_as_many_for_each_guest():
+    plan = read("Lay the table for three: a bowl, a knife and a cup each.")
+    assert [[obj.noun for obj in plan.objects].count(noun) for noun in ("bowl", "knife", "cup")] == [3, 3, 3]
+    assert {parent for _, parent in related(plan, "on")} == {"table"}
+
+
+def test_colours_that_alternate():
+    for prompt in (
+        "A row of four jars that alternate between red and green on a shelf.",
+        "Four jars in a row on a shelf, alternating red and green.",
+        "Four jars in a line on a shelf, alternately red and green.",
+    ):
+        plan = read(prompt)
+        row = next(one.objects for one in plan.arrangements if one.kind == "row")
+        colours = {obj.name: obj.colours for obj in plan.objects}
+        assert [colours[name] for name in row] == [("red",), ("green",)] * 2
+        assert {parent for _, parent in related(plan, "on")} == {"shelf"}
+        assert not plan.notes

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
@@ -54,8 +55,16 @@ def _shapes(it: Compared) -> frozenset[str]:
     round_about = {one.kind for one in it.plan.arrangements} & {"circle", "around"}
     lying = any(one.kind == "on_its_side" for one in it.plan.postures)
     heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
+    colours = {obj.name: obj.colours for obj in it.plan.objects}
+    alternating = any(
+        len({colours[name] for name in one.objects}) > 1
+        and all(colours[left] != colours[right] for left, right in pairwise(one.objects))
+        for one in it.plan.arrangements
+        if one.kind == "row"
+    )
     return (
-        frozenset({"pyramid"} if heaped else ())
+        frozenset({"alternate", "alternates", "alternately"} if alternating else ())
+        | frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
         | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())

@@ -25,6 +25,7 @@ _MANY_COLOURED = frozenset({
     "rainbow-colored", "rainbow-coloured", "multicoloured",
 })  # fmt: skip
 """Words that a list of the colours says too."""
+_ALTERNATING = frozenset({"alternate", "alternating", "alternately", "alternates"})
 _LONGEST = 24
 """Tokens of a list in brackets."""
 
@@ -35,6 +36,29 @@ def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
     tokens = _all_alike(_with_heads(_set_off_colours(list(tokens)), nouns), nouns)
     return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
+
+
+def alternating(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "cups that alternate between white and blue" as "alternating white and blue cups"."""
+    words = [token.text for token in tokens]
+    at = next((n for n, word in enumerate(words) if word in _ALTERNATING), 0)
+    first = at + 1 + (words[at + 1] == "between")
+    colours = words[first : first + 3]
+    if (
+        not at
+        or len(colours) < 3
+        or colours[1] != "and"
+        or not is_colour_word(colours[0])
+        or (not is_colour_word(colours[2]) or not (tokens[first + 3].mark or link_at(tokens, first + 3)))
+    ):
+        return list(tokens)
+    start = at - (words[at - 1] in (",", "that", "which"))
+    start -= words[start - 1] == ","
+    end = next((n for n in range(start, 0, -1) if nouns.match([words[n - 1]]) and singulars(words[n - 1])), 0)
+    if not end or any(tokens[n].mark for n in range(end, start)):
+        return list(tokens)
+    told = [replace(tokens[at], text="alternating"), *tokens[first : first + 3]]
+    return [*tokens[: end - 1], *told, *tokens[end - 1 : start], *tokens[first + 3 :]]
 
 
 def _items(tokens: Sequence[Token]) -> list[Item]:

@@ -24,7 +24,8 @@ from pat3d.plan.grammar.displaced import (
     stateless,
     which_carries,
 )
-from pat3d.plan.grammar.enumerated import enumerated
+from pat3d.plan.grammar.distribution import for_guests
+from pat3d.plan.grammar.enumerated import alternating, enumerated
 from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import EACH_OTHER, LINKS
@@ -67,6 +68,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
+    tokens = alternating(for_guests(tokens), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
     tokens = covering(opened(stated(tokens), nouns), nouns)

@@ -230,10 +230,11 @@ class References(Contrast):
         """
         world, group = self._world, items[0].group
         named = phrase.words.lower().startswith("the ") and phrase.count in (None, 1) and not phrase.each
-        matched = "same" in phrase.words.lower().split()
+        before = [item for item in world.singled if item in items]
+        # "the container of the same color": one in turn
+        matched = at is None and not before and len({colours_of(item) for item in items}) > 1
         if not named or matched or not (group.phrase.plural and group.counted) or group.multiplied or group.cycle:
             return items
-        before = [item for item in world.singled if item in items]
         if at is None:
             return before[-1:] or items[:1]
         one = next((item for item in items if item not in before), items[-1])
