@@ -6,24 +6,19 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
+from pat3d.plan.english import counted, is_plural, joined, ordinal, plural, some
 from pat3d.plan.scene_plan import Arrangement, PlannedObject, ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS, crossing
 from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation, carriers_of
 
-_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
-_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
-_PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
-            "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",
-            "lens": "lenses", "fish": "fish", "sheep": "sheep", "bread": "loaves of bread"}  # fmt: skip
-_PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
-"""Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
-_MASSES = frozenset({
-    "flour", "bread", "cheese", "butter", "toothpaste", "soap", "ketchup", "mustard", "sugar", "rice", "tofu", "salmon",
-    "broccoli", "lettuce", "celery", "garlic", "chocolate", "popcorn", "ham", "meat", "pasta", "cereal", "milk", "wine",
-    "tomato soup", "salt", "honey", "jam", "yogurt", "salad", "cauliflower", "spinach", "bacon", "tuna", "sushi",
-    "jewelry", "sandpaper", "tape", "cream cheese", "ginger",
-})  # fmt: skip
-"""What is told of as "some flour" where there is one of it."""
+_DEEDS = {"place": "put {0} {where} {1}", "stack": "stack {0} on {1}", "pick": "pick up {0}",
+          "unload": "take everything out of {0}", "sort": "sort what is there"}  # fmt: skip
+"""What a task asks for, of the objects that it names."""
+_HOLLOW = frozenset({"bowl", "cup", "mug", "glass", "pot", "jar", "vase", "basket", "box", "bucket", "bin", "crate",
+                     "beaker", "pitcher", "container", "jug", "saucepan", "sink", "drawer", "cabinet", "fridge",
+                     "microwave", "oven", "toolbox", "bag", "caddy", "pail", "can", "case", "dishwasher"})  # fmt: skip
+"""Last words of names of what things are put in."""
+_WAYS = {"height": "high", "width": "wide", "depth": "deep", "length": "long", "thickness": "thick"}
 
 
 def tell(plan: ScenePlan) -> str:
@@ -56,9 +51,29 @@ class _Teller:
 
     def told(self) -> str:
         sentences = [*self._supports(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]
-        if self._plan.task is not None:
-            sentences.append(f"The task is {self._plan.task}")
+        sentences += [*self._sizes(), *self._task()]
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
+
+    def _sizes(self) -> list[str]:
+        """How large things are that the prompt measures."""
+        made: dict[str, list[str]] = {}
+        for obj in self._plan.objects:
+            if obj.extent is not None:
+                way = _WAYS.get(obj.extent.axis or "", "on the longest side")
+                made.setdefault(f"{obj.extent.metres:.3g} m {way}", []).append(obj.name)
+        return [f"{self._all(names)} {self._is(names)} {size}" for size, names in made.items()]
+
+    def _task(self) -> list[str]:
+        """What is to be done, in words and as it is written down."""
+        if self._plan.task is None:
+            return []
+        kind, *names = self._plan.task.split(":")
+        known = names and all(name in self._base for name in names)
+        if kind not in _DEEDS or not (known or kind == "sort"):
+            return [f"The task is {self._plan.task}"]
+        inside = len(names) == 2 and _holds(self._base[names[1]])
+        said = _DEEDS[kind].format(*map(self._the, names), where="in" if inside else "on")
+        return [f"The task is to {said} ({self._plan.task})"]
 
     def _all_pyramids(self) -> dict[tuple[str, ...], list[str]]:
         above = {self._carriers(obj.name): obj.name for obj in self._plan.objects if len(self._carriers(obj.name)) > 1}
@@ -101,7 +116,7 @@ class _Teller:
                     continue
                 told |= set(own)
                 verb = (
-                    "is" if len(own) == 1 and (self._stack(own[0])[1:] or not _is_plural(self._base[own[0]])) else "are"
+                    "is" if len(own) == 1 and (self._stack(own[0])[1:] or not is_plural(self._base[own[0]])) else "are"
                 )
                 if parent == GROUND:
                     stand = "stands" if verb == "is" else "stand"
@@ -111,7 +126,7 @@ class _Teller:
                     made.append(sentence)
                     told |= set(names)
                 else:
-                    others, place = self._same_parents(parent, own)
+                    others, place = self._same_parents(parent, own, kind)
                     is_or_are = "are" if len(others) > 1 else verb
                     made.append(f"{self._listed(others)} {is_or_are} {RELATION_WORDS[kind]} {place}")
                     told |= set(others)
@@ -126,17 +141,15 @@ class _Teller:
     def _children(self, parent: str) -> list[str]:
         return [obj.name for obj in self._plan.objects if self._plan.parent(obj.name) == parent]
 
-    def _same_parents(self, parent: str, own: list[str]) -> tuple[list[str], str]:
+    def _same_parents(self, parent: str, own: list[str], how: str) -> tuple[list[str], str]:
         """`own` and its like on the like of `parent`, where every one of these has its own."""
         kind = self._like[parent]
         if len(kind) > 1 and len(own) == 1 and not any(self._continues_stack(name) for name in kind):
             pairs = [(other, self._children(other)) for other in kind]
             likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
             if all(len(each) == 1 for each in likes) and all(len(names) == 1 for _, names in pairs):
-                likes_own = [each[0] for each in likes]
-                within = all(self._kind(name) == "in" for name in likes_own)
-                each = "one in each" if within else "one on each"
-                return likes_own, f"the {_count(len(kind))} {plural(self._base[parent])}, {each}"
+                place = f"the {counted(len(kind))} {plural(self._base[parent])}"
+                return [each[0] for each in likes], f"{place}, one {RELATION_WORDS[how]} each"
         return own, self._the(parent)
 
     def _spread(self, parent: str, kind: str) -> tuple[list[str], str] | None:
@@ -152,11 +165,11 @@ class _Teller:
             return None
         sizes = list(dict.fromkeys(map(len, shares)))
         one_kind = len({self._like[name][0] for name in names}) == 1
-        parents = f"the {_count(len(like))} {plural(self._base[parent])}"
+        parents = f"the {counted(len(like))} {plural(self._base[parent])}"
         verb = RELATION_WORDS[kind]
         if one_kind and len(sizes) == 1:
-            return names, f"{self._listed(names)} are {verb} {parents}, {_count(sizes[0])} {verb} each"
-        how = f": {_joined([_count(len(share)) if share else 'none' for share in shares])}" if one_kind else ""
+            return names, f"{self._listed(names)} are {verb} {parents}, {counted(sizes[0])} {verb} each"
+        how = f": {joined([counted(len(share)) if share else 'none' for share in shares])}" if one_kind else ""
         return names, f"{self._listed(names)} are spread over {parents}{how}"
 
     def _stack(self, name: str) -> list[str]:
@@ -190,8 +203,8 @@ class _Teller:
     def _grid(self, cells: Mapping[str, tuple[int, int]]) -> str:
         """Several rows with aligned columns."""
         lengths = list(Counter(row for _, row in cells.values()).values())
-        each = f"of {_count(lengths[0])}" if len(set(lengths)) == 1 else f"of {_joined([_count(n) for n in lengths])}"
-        return f"{self._all(list(cells))} are in {_count(len(lengths))} rows {each}, one behind the other"
+        each = f"of {counted(lengths[0])}" if len(set(lengths)) == 1 else f"of {joined([counted(n) for n in lengths])}"
+        return f"{self._all(list(cells))} are in {counted(len(lengths))} rows {each}, one behind the other"
 
     def _direction(self, row: Arrangement) -> str:
         """Where a row runs: as a relation of its first two has it, else to the right."""
@@ -212,7 +225,7 @@ class _Teller:
             if each.kind == "across" and len(each.of) > 1:
                 continue
             if each.objects in self._pyramids:
-                lowest = _count(len(each.objects))
+                lowest = counted(len(each.objects))
                 made.append(f"{self._all(self._pyramids[each.objects])} are in a pyramid, {lowest} at the bottom")
                 continue
             words = f"{rule.words} {self._all(each.of)}" if each.of else rule.alone
@@ -241,7 +254,7 @@ class _Teller:
         ]
 
     def _is(self, names: Sequence[str]) -> str:
-        return "is" if len(names) == 1 and not _is_plural(self._base[names[0]]) else "are"
+        return "is" if len(names) == 1 and not is_plural(self._base[names[0]]) else "are"
 
     def _laterals(self) -> list[str]:
         """Lateral relations, those of equal children to one parent in one sentence."""
@@ -250,8 +263,11 @@ class _Teller:
             if not rel.supports and not self._said(rel):
                 grouped.setdefault((rel.kind, rel.parent), []).append(rel.child)
         made = self._pairs(grouped)
+        parents: dict[tuple[str, tuple[str, ...]], list[str]] = {}
         for (kind, parent), children in grouped.items():
-            made.append(f"{self._all(children)} {self._is(children)} {RELATION_WORDS[kind]} {self._the(parent)}")
+            parents.setdefault((kind, tuple(children)), []).append(parent)
+        for (kind, children), of in parents.items():
+            made.append(f"{self._all(children)} {self._is(children)} {RELATION_WORDS[kind]} {self._all(of)}")
         return made
 
     def _pairs(self, grouped: dict[tuple[str, str], list[str]]) -> list[str]:
@@ -265,14 +281,14 @@ class _Teller:
             children, whole = [child for child, _ in pairs], self._like[first]
             if first == other:
                 told = kind == "next_to" and len(pairs) == len(whole) - 1 > 1
-                said = f"the {_count(len(whole))} {plural(self._base[first])} are next to each other"
+                said = f"the {counted(len(whole))} {plural(self._base[first])} are next to each other"
             else:
                 parents = {parent for _, parent in pairs}
                 told = (
                     len({*children}) == len(children) == len(whole) > 1 and len(parents) == len(self._like[other]) > 1
                 )
-                one = f"one of the {_count(len(self._like[other]))} {plural(self._base[other])}"
-                said = f"each of the {_count(len(whole))} {plural(self._base[first])} is {RELATION_WORDS[kind]} {one}"
+                one = f"one of the {counted(len(self._like[other]))} {plural(self._base[other])}"
+                said = f"each of the {counted(len(whole))} {plural(self._base[first])} is {RELATION_WORDS[kind]} {one}"
             if told:
                 made.append(said)
                 for child, parent in pairs:
@@ -297,15 +313,17 @@ class _Teller:
 
     def _listed(self, names: Sequence[str]) -> str:
         """Read "a mug and two plates", by kind, towers as one."""
-        parts: list[str] = []
         by_kind: dict[str, list[str]] = {}
+        towers: Counter[str] = Counter()
         for name in names:
             tower = self._stack(name)
             if len(tower) > 1:
-                parts.append(f"a stack of {_count(len(tower))} {plural(self._base[name])}")
+                towers[f"stack of {counted(len(tower))} {plural(self._base[name])}"] += 1
                 self._named |= set(tower)
             else:
                 by_kind.setdefault(self._like[name][0], []).append(name)
+        parts = [some(tower, count) for tower, count in towers.items()]
+        told: set[str] = set()
         for own in by_kind.values():
             base, whole = self._base[own[0]], self._like[own[0]]
             if tuple(own) in self._pyramids:
@@ -313,13 +331,15 @@ class _Teller:
                 own = self._pyramids[tuple(own)]
             fresh = not set(whole) & self._named
             if len(own) == len(whole) or (fresh and len(own) > 1):
-                parts.append(_some(base, len(own)))
+                further = f"another {base}" if len(own) == 1 else f"{counted(len(own))} other {plural(base)}"
+                parts.append(further if base in told else some(base, len(own)))
             elif len(own) == 1:
                 parts.append(self._the(own[0]))
             else:
-                parts.append(f"{_count(len(own))} of the {_count(len(whole))} {plural(base)}")
+                parts.append(f"{counted(len(own))} of the {counted(len(whole))} {plural(base)}")
             self._named |= set(own)
-        return _joined(parts)
+            told.add(base)
+        return joined(parts)
 
     def _all(self, names: Sequence[str]) -> str:
         """Read "the mug and the two plates"."""
@@ -330,10 +350,13 @@ class _Teller:
         for own in by_kind.values():
             base, whole = self._base[own[0]], self._like[own[0]]
             if len(own) > 1 and len(own) == len(whole):
-                parts.append(f"the {_count(len(own))} {plural(base)}")
+                parts.append(f"the {counted(len(own))} {plural(base)}")
+            elif len(own) > 1 and len(self._stack(whole[0])) < len(whole):
+                places = joined([ordinal(at) for at, name in enumerate(whole) if name in own])
+                parts.append(f"the {places} of the {counted(len(whole))} {plural(base)}")
             else:
                 parts += [self._the(name) for name in own]
-        return _joined(parts)
+        return joined(parts)
 
     def _the(self, name: str) -> str:
         base, whole = self._base[name], self._like[name]
@@ -341,63 +364,34 @@ class _Teller:
             return f"the {base}"
         at = whole.index(name)
         if len(self._stack(whole[0])) == len(whole):
-            end = "lowest" if at == 0 else "top" if at == len(whole) - 1 else _ordinal(at)
+            end = "lowest" if at == 0 else "top" if at == len(whole) - 1 else ordinal(at)
             return (
-                f"the {end} of the {_count(len(whole))} {plural(base)}"
+                f"the {end} of the {counted(len(whole))} {plural(base)}"
                 if end != "top"
                 else f"the stack of {plural(base)}"
             )
-        return f"the {_ordinal(at)} of the {_count(len(whole))} {plural(base)}"
+        return f"the {ordinal(at)} of the {counted(len(whole))} {plural(base)}"
+
+
+def _holds(base: str) -> bool:
+    """Whether what is put to a thing of this name is put in it."""
+    return base.split()[-1] in _HOLLOW
 
 
 def _base(obj: PlannedObject, plan: ScenePlan) -> str:
     """The name of `obj` without the number that tells it from its like."""
+    return _listed_colours(_unnumbered(obj, plan))
+
+
+def _listed_colours(name: str) -> str:
+    """Read "red and blue and green mat" as "red, blue and green mat"."""
+    *first, last = name.split(" and ")
+    return f"{', '.join(first)} and {last}" if first else name
+
+
+def _unnumbered(obj: PlannedObject, plan: ScenePlan) -> str:
     found = re.fullmatch(r"(.+) (\d+)", obj.name)
     if found is None:
         return obj.name
     like = [other for other in plan.objects if re.fullmatch(rf"{re.escape(found[1])} \d+", other.name)]
     return found[1] if len(like) > 1 or obj.colours else obj.name
-
-
-def _is_plural(base: str) -> bool:
-    word = base.partition(" of ")[0].split()[-1]
-    return word not in _PLURALS and _PLURAL_ONLY.fullmatch(word) is not None
-
-
-def plural(name: str) -> str:
-    """The plural of a noun phrase: "bars of soap", "boxes", "mice"."""
-    head, of, rest = name.partition(" of ")
-    *before, word = head.split(" ")
-    if word in _PLURALS:
-        word = _PLURALS[word]
-    elif _is_plural(word):
-        pass
-    elif re.search(r"(s|x|z|ch|sh|tomato|potato|domino)$", word):
-        word += "es"
-    elif re.search(r"[^aeiou]y$", word):
-        word = f"{word[:-1]}ies"
-    else:
-        word += "s"
-    return " ".join([*before, word]) + of + rest
-
-
-def _some(base: str, count: int) -> str:
-    if count > 1:
-        return f"{_count(count)} {plural(base)}"
-    if _is_plural(base):
-        return base
-    if base.split()[-1] in _MASSES and " of " not in base:
-        return f"some {base}"
-    return f"{'an' if re.match(r'[aeio]|u(?!ni|s|k|t)', base) else 'a'} {base}"
-
-
-def _count(count: int) -> str:
-    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
-
-
-def _ordinal(at: int) -> str:
-    return _ORDINALS[at] if at < len(_ORDINALS) else f"{at + 1}th"
-
-
-def _joined(parts: Sequence[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}" if parts else "nothing"

@@ -158,6 +158,6 @@ def test_a_small_thing_of_which_nothing_says_where_it_is_while_others_are_on_a_t
     prompt = "A red mug is on a table, and a pen."
     objects = (thing("red mug", "A red mug", "red"), thing("table", "a table"), thing("pen", "a pen"))
     told = ScenePlan(prompt=prompt, objects=objects, relations=(Relation(child="red mug", kind="on", parent="table"),))
-    assert audited(told, find, ("table",)).notes == ('"a pen": where is not said; on the ground',)
+    assert audited(told, find, ("table",)).notes == ('"a pen": "on a table" is not read as said of it; on the ground',)
     carried = replace(told, relations=(*told.relations, Relation(child="pen", kind="on", parent="table")))
     assert audited(carried, find, ("table",)).notes == ()

@@ -147,3 +147,12 @@ def test_a_request_whose_goal_is_open_is_not_noted():
 def test_how_something_stands_after_the_task_is_not_how_it_stands_before():
     told = plan("Put the cup upside down in the box.", "cup=the cup; box=the box", task="place:cup:box", turned="cup")
     assert '"upside down" of "cup" is read as how it stands before the task' in notes(told)
+
+
+def test_of_a_list_of_which_one_is_nowhere_it_is_said_what_is_not_read_of_it():
+    prompt, edges = (
+        "A cup stands next to a bowl and a vase on a table.",
+        "cup next_to bowl; cup on table; bowl on table",
+    )
+    told = notes(plan(prompt, "cup=A cup; bowl=a bowl; vase=a vase; table=a table", edges))
+    assert any('"a vase"' in note for note in told)

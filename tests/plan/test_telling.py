@@ -2,9 +2,10 @@
 
 import pytest
 
+from pat3d.plan.english import plural
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.plan.telling import plural, tell
+from pat3d.plan.telling import tell
 from pat3d.scene.model import Relation
 
 PLANNER = GrammarPlanner()
@@ -38,7 +39,22 @@ PLANNER = GrammarPlanner()
          "Three plates stand on the ground. Three apples are on the three plates, one on each."),
         ("a swing hanging from a tree", "A tree stands on the ground. A swing is hanging from the tree."),
         ("scissors on a box", "A box stands on the ground. Scissors are on the box."),
-        ("put the mug on the tray", "A mug and a tray stand on the ground. The task is place:mug:tray."),
+        ("put the mug on the tray",
+         "A mug and a tray stand on the ground. The task is to put the mug on the tray (place:mug:tray)."),
+        ("put the plum in the bucket",
+         "A plum and a bucket stand on the ground. The task is to put the plum in the bucket (place:plum:bucket)."),
+        ("pick up the ladle", "A ladle stands on the ground. The task is to pick up the ladle (pick:ladle)."),
+        ("a pear in each of two cups", "Two cups stand on the ground. Two pears are in the two cups, one in each."),
+        ("two stacks of three books each on a desk",
+         "A desk stands on the ground. Two stacks of three books are on the desk."),
+        ("a red, blue and yellow mat", "A red, blue and yellow mat stands on the ground."),
+        ("a lamp 0.4 m high on a table",
+         "A table stands on the ground. A lamp is on the table. The lamp is 0.4 m high."),
+        ("Four bottles on a bench, three of them upside down.",
+         "A bench stands on the ground. Four bottles are on the bench. The first, second and third of the four bottles "
+         "are upside down."),
+        ("A vase is next to the clock and the globe.",
+         "A vase, a clock and a globe stand on the ground. The vase is next to the globe and the clock."),
     ],
 )  # fmt: skip
 def test_telling(prompt: str, told: str):

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 
 from pat3d.errors import EditError, PromptError
 from pat3d.layout.predicates import relation_holds
+from pat3d.plan.english import plural
 from pat3d.plan.scene_plan import Planner, ScenePlan
-from pat3d.plan.telling import plural
 from pat3d.scene.model import GROUND, Relation, Scene, SceneObject
 from pat3d.scene.relations import carriers_of
 

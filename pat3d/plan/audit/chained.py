@@ -8,6 +8,7 @@ from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.subjects import row_of, said_of
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import FINITE, OPENING, POSED
+from pat3d.plan.scene_plan import PlannedObject
 
 _CHECKED = frozenset({"on", "on top", "in", "beside", "left", "right", "front", "behind", "under", "above", "between"})
 _CUTLERY = frozenset({"fork", "knife", "spoon", "napkin", "chopsticks", "glass", "saucer"})
@@ -180,3 +181,20 @@ def _beside_it(it: Compared) -> Iterator[tuple[int, str]]:
         held = any(a in names and b in of and kind in ("on", "in") for a, kind, b in _direct(it))
         if names and of and not held and not alike and not it.named(things[0].text):
             yield claim.at, f'"{claim.said}" is read as said of "{things[0].text}" too'
+
+
+def listed_place(it: Compared, obj: PlannedObject) -> str:
+    """What is said of `obj` in one list with another of which it is read: "beside a clock and a globe"."""
+    words, joints = it.said.words, (["and"], [","], [",", "and"])
+    mention = next((one for one in it.said.mentions if obj in it.which(one)), None)
+    if mention is None:
+        return ""
+    for claim in it.said.claims:
+        landmark = claim.of is not None and words[claim.of.end : mention.first] in joints
+        if claim.place not in _CHECKED or (words[mention.end : mention.end + 1] and words[mention.end] in FINITE):
+            continue
+        mate = next((one for one in it.said.mentions if one.end == claim.at), None)
+        subject = mate is not None and words[mention.end : mate.first] in joints
+        if (landmark or subject) and claim.of is not None and it.which(claim.of):
+            return f'"{claim.said}" is not read as said of it'
+    return ""

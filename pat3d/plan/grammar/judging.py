@@ -105,14 +105,14 @@ class Judging:
 
     def _carries_it(self, link: Link, named: Node, modifier: Node) -> bool:
         """Whether what is "on it" in `modifier` may be on `named`: "a plate on a desk with a bun on it"."""
-        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) > 1:
+        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) != 1:
             return False
         its = {fact[1] for fact in modifier.facts if fact[0] == "bind" and fact[2] == modifier.heads}
         rels = [fact for fact in modifier.facts if fact[0] == "rel" and its & set(fact[3])]
+        carried = [fact for fact in rels if self._link(fact[1]).kind in SUPPORT_KINDS]
+        owner = self._noun(named.heads[0])
         return any(
-            self._link(at).kind in SUPPORT_KINDS
-            and self._likely.relation(self._link(at), self._noun(children[0]), self._noun(named.heads[0])) < _NATURAL
-            for _, at, children, _ in rels
+            self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), owner) < _NATURAL for fact in carried
         )
 
     def _is_pronoun(self, heads: tuple[int, ...]) -> bool:

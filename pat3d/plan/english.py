@@ -1,0 +1,71 @@
+"""Numbers and nouns in English: "two bars of soap", "an umbrella", "the first and the third"."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+_ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
+_PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
+            "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",
+            "scarf": "scarves", "wolf": "wolves", "elf": "elves", "sheep": "sheep", "deer": "deer",
+            "lens": "lenses", "fish": "fish", "bread": "loaves of bread"}  # fmt: skip
+_PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
+"""Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
+_MASSES = frozenset({
+    "flour", "bread", "cheese", "butter", "toothpaste", "soap", "ketchup", "mustard", "sugar", "rice", "tofu", "salmon",
+    "broccoli", "lettuce", "celery", "garlic", "chocolate", "popcorn", "ham", "meat", "pasta", "cereal", "milk", "wine",
+    "tomato soup", "salt", "honey", "jam", "yogurt", "salad", "cauliflower", "spinach", "bacon", "tuna", "sushi",
+    "jewelry", "sandpaper", "tape", "cream cheese", "ginger",
+})  # fmt: skip
+"""What is told of as "some flour" where there is one of it."""
+
+
+def is_plural(base: str) -> bool:
+    """Whether the name `base` is a plural as it stands: "scissors"."""
+    word = base.partition(" of ")[0].split()[-1]
+    return word not in _PLURALS and _PLURAL_ONLY.fullmatch(word) is not None
+
+
+def plural(name: str) -> str:
+    """The plural of a noun phrase: "bars of soap", "boxes", "mice"."""
+    head, of, rest = name.partition(" of ")
+    *before, word = head.split(" ")
+    if word in _PLURALS:
+        word = _PLURALS[word]
+    elif is_plural(word):
+        pass
+    elif re.search(r"(s|x|z|ch|sh|tomato|potato|domino)$", word):
+        word += "es"
+    elif re.search(r"[^aeiou]y$", word):
+        word = f"{word[:-1]}ies"
+    else:
+        word += "s"
+    return " ".join([*before, word]) + of + rest
+
+
+def some(base: str, count: int) -> str:
+    """Read "a mug", "two mugs", "some flour"."""
+    if count > 1:
+        return f"{counted(count)} {plural(base)}"
+    if is_plural(base):
+        return base
+    if base.split()[-1] in _MASSES and " of " not in base:
+        return f"some {base}"
+    return f"{'an' if re.match(r'[aeio]|hour|u(?!ni|s|k|t)', base) else 'a'} {base}"
+
+
+def counted(count: int) -> str:
+    """`count` in words up to twelve."""
+    return _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+
+
+def ordinal(at: int) -> str:
+    """Read "first" for 0."""
+    return _ORDINALS[at] if at < len(_ORDINALS) else f"{at + 1}th"
+
+
+def joined(parts: Sequence[str]) -> str:
+    """Read "a, b and c"."""
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}" if parts else "nothing"
