@@ -63,7 +63,7 @@ def _shapes(it: Compared) -> frozenset[str]:
         if one.kind == "row"
     )
     return (
-        frozenset({"alternate", "alternates", "alternately"} if alternating else ())
+        frozenset({"alternate", "alternates", "alternately", "alternating"} if alternating else ())
         | frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
         | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
