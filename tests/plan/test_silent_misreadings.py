@@ -171,6 +171,11 @@ def test_what_matches_and_what_is_listed_is_of_the_same_colour_and_material(prom
     [
         ("Put a mug on the top shelf and a jar on the middle shelf.", "middle"),
         ("A blue chair on a mat with two matching stools.", "matching"),
+        ("Put the pen in the other drawer.", "other"),
+        ("Put the pen in a different mug.", "different"),
+        ("Take the remaining fork.", "remaining"),
+        ("Five chairs surround a desk and a bench.", "surround a desk and a bench"),
+        ("A jug with a dark circle on it.", "dark circle on it"),
     ],
 )
 def test_a_word_without_effect_is_in_a_note(prompt: str, said: str):
@@ -190,3 +195,23 @@ def test_a_colour_by_its_noun_is_that_of_the_thing(prompt: str, colour: str):
         (f"{colour} jug", (colour,)),
         ("tray", ()),
     }
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "A fork is on one plate and a spoon on another plate.",
+        "Put the green pen in the mug and the blue pen in the other mug.",
+        "Four chairs around a table and a lamp.",
+    ],
+)
+def test_no_further_one_is_missed_where_there_is_one(prompt: str):
+    notes = PLANNER.plan(prompt).notes
+    assert not any("there is only one" in note or "nothing stands around" in note for note in notes)
+
+
+@pytest.mark.parametrize("prompt", ["A jug with a square on it.", "A jug with two red circles on it."])
+def test_what_is_drawn_on_a_thing_is_no_second_one(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert [obj.name for obj in plan.objects] == ["jug"]
+    assert any("on it" in note for note in plan.notes)

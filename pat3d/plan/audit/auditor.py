@@ -44,6 +44,7 @@ from pat3d.plan.audit.places import (
     without,
 )
 from pat3d.plan.audit.ranked import ranked
+from pat3d.plan.audit.rings import rings
 from pat3d.plan.audit.subjects import misattached
 from pat3d.plan.audit.text import Find, Mention, read, singulars
 from pat3d.plan.audit.unheard import unheard
@@ -188,6 +189,7 @@ class _Auditor(Compared):
             *storeys(self),
             *heights(self),
             *ranked(self),
+            *rings(self),
         ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)

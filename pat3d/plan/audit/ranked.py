@@ -1,12 +1,15 @@
-"""Members of several that were never named as several: "the largest bowl", "the third shelf"."""
+"""Members of several that were never named as several: "the largest bowl", "the third shelf", "another cup"."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from pat3d.plan.audit.compared import Compared
 
 _SUPERLATIVES = frozenset({"largest", "smallest", "biggest"})
+_FURTHER = frozenset({"other", "another", "different", "second", "remaining"})
+"""Words by which there is one more than what they name."""
 _ORDINALS = {"second": 2, "third": 3, "fourth": 4, "fifth": 5, "sixth": 6}
 
 
@@ -19,6 +22,11 @@ def ranked(it: Compared) -> Iterator[tuple[int, str]]:
         for word in lead:
             if word in _SUPERLATIVES and there == 1 and word not in it.quoted:
                 yield mention.start, f'not modelled: "{word}" of "{mention.text}": there is only one'
+            own = not {"a", "an", "the"} & {*lead[lead.index(word) :]}
+            further = word in _FURTHER and own and not mention.plural and mention.number in (None, 1)
+            if further and there == 1 and not re.search(rf"\b{word}\b", it.quoted):
+                yield mention.start, f'not modelled: "{word}" of "{mention.text}": there is only one'
+                continue
             rank = _ORDINALS.get(word, 0)
             if "the" in lead and 0 < there < rank and not mention.plural and f"{word} {mention.text}" not in it.quoted:
                 yield mention.start, f'counted otherwise: "the {word} {mention.text}"; there are {there}'

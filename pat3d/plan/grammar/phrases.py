@@ -77,6 +77,8 @@ class Phrase:
 _STUFF = (["straw"], ["stone"], ["cloth"], ["cork"], ["rope"], ["foam"])
 """What "a ..." is a thing of its own, and before a noun a material."""
 
+_DRAWN = frozenset({"square", "squares", "circle", "circles", "rectangle", "rectangles"})
+
 
 class PhraseReader:
     """Reads noun phrases from the tokens of one prompt."""
@@ -141,7 +143,8 @@ class PhraseReader:
             if len(run) == 2 and run[1].text == "one" and run[0].text in ORDINALS and not flags.get("definite"):
                 words = self._text[tokens[start].start : tokens[after - 1].end]
                 return Phrase(kind="pronoun", head="another", words=words, number=run[1].number), after
-            phrase = self._simple(run, count)
+            drawn = run[-1].text in _DRAWN and tokens[after].text == "on" and tokens[after + 1].text in lexicon.PRONOUNS
+            phrase = self._part(run, count) if drawn else self._simple(run, count)
         flags.pop("one", None)
         whole = phrase.kind == "object" and bool(phrase.noun) and not phrase.plural
         if flags.get("vague") and whole and (phrase.said in lexicon.PLURAL_ONLY or phrase.said in lexicon.BUNCHES):
@@ -165,6 +168,12 @@ class PhraseReader:
         words = self._text[tokens[start].start : tokens[after - 1].end]
         return Phrase(kind="pieces", head=word.text, number=word.number, words=words, determined=True, definite=True,
                       modifiers=told), after  # fmt: skip
+
+    @staticmethod
+    def _part(run: Sequence[Token], count: int | None) -> Phrase:
+        """What is drawn on a thing, and is none beside it: "a mug with a dark square on it"."""
+        head, modifiers = run[-1], read_modifiers([token.text for token in run[:-1]])
+        return Phrase(kind="part", head=head.text, said=head.text, number=head.number, count=count, modifiers=modifiers)
 
     def _simple(self, run: list[Token], count: int | None) -> Phrase:
         """The phrase of a run without "of"."""
