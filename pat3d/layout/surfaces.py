@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from pat3d.layout.bodies import Array
 from pat3d.layout.flat import WRONG_HAND, Item, Lateral, Spot, Surface, natural_gap, right_hand
 from pat3d.layout.formations import CLOSE, Wishes, far_gap, ring_angles
+from pat3d.layout.strategies import STRATEGIES, Strategy, too_many
 from pat3d.scene.relations import OPPOSITE, SIDES
 
 BRANCHES = 4
@@ -29,30 +30,6 @@ ABOVE = 1e3
 """Overlap [m] that things which stand above one another may have, seen from above."""
 
 NOTHING = Wishes()
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Strategy:
-    spacing: float
-    """Factor on the natural gaps."""
-    least: float
-    """Smallest gap [m]."""
-    quarters: bool = False
-    largest_first: bool = False
-    overhang: float = 0.0
-    """Share of an item's size that may stand over the edge."""
-
-
-_STRATEGIES = (
-    _Strategy(spacing=1.0, least=0.02),
-    _Strategy(spacing=0.5, least=0.01),
-    _Strategy(spacing=0.0, least=0.01),
-    _Strategy(spacing=0.0, least=0.004, largest_first=True),
-    _Strategy(spacing=0.0, least=0.01, quarters=True),
-    _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True),
-    _Strategy(spacing=0.0, least=0.004, overhang=0.15, largest_first=True),
-    _Strategy(spacing=0.0, least=0.004, quarters=True, largest_first=True, overhang=0.3),
-)
 
 
 def arrange_flat(
@@ -75,27 +52,13 @@ def arrange_flat(
         wishes: of the arrangements.
     """
     fixed = dict(pinned or {})
-    for strategy in _STRATEGIES if surface.limited else _STRATEGIES[:2]:
-        if (strategy.overhang and not overhang) or _too_many(items, surface, strategy):
+    for strategy in STRATEGIES if surface.limited else STRATEGIES[:2]:
+        if (strategy.overhang and not overhang) or too_many(items, surface, strategy):
             continue
         found = _Search(items, laterals, surface, fixed, strategy, wishes).run()
         if found is not None:
             return found
     return None
-
-
-def _too_many(items: Sequence[Item], surface: Surface, strategy: _Strategy) -> bool:
-    """Whether the items cannot lie side by side, however they are arranged.
-
-    Grown by half a gap on every side they still do not overlap, and lie in the surface's rectangle grown likewise (and
-    by what may stand over the edge).
-    """
-    if not surface.limited:
-        return False
-    sizes = np.array([item.size for item in items])
-    widest = np.full(2, sizes.max()) if strategy.quarters else sizes.max(axis=0)
-    space = 2 * np.array(surface.half_size) + 2 * strategy.overhang * widest + strategy.least
-    return float(np.prod(sizes + strategy.least, axis=1).sum()) > 1.001 * float(np.prod(space))
 
 
 def side_holds(kind: str, low: Array, high: Array, low_p: Array, high_p: Array) -> NDArray[np.bool_]:
@@ -114,7 +77,7 @@ class _Search:
     laterals: Sequence[Lateral]
     surface: Surface
     pinned: dict[str, Array]
-    strategy: _Strategy
+    strategy: Strategy
     wishes: Wishes = NOTHING
     budget: int = BUDGET
     placed: dict[str, tuple[Item, Array, bool]] = field(default_factory=dict)

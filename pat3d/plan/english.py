@@ -10,7 +10,7 @@ _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", 
 _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
             "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",
             "scarf": "scarves", "wolf": "wolves", "elf": "elves", "sheep": "sheep", "deer": "deer",
-            "lens": "lenses", "fish": "fish", "sheep": "sheep", "bread": "loaves of bread"}  # fmt: skip
+            "lens": "lenses", "fish": "fish", "bread": "loaves of bread"}  # fmt: skip
 _PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
 """Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
 _MASSES = frozenset({

@@ -7,7 +7,8 @@ import pytest
 from pat3d.layout.flat import Item, Lateral, Surface
 from pat3d.layout.formations import CLOSE, Formation, Wishes
 from pat3d.layout.places import INSIDE, _spots
-from pat3d.layout.surfaces import _STRATEGIES, _Search, _too_many, arrange_flat, natural_gap, ring_angles
+from pat3d.layout.strategies import STRATEGIES, too_many
+from pat3d.layout.surfaces import _Search, arrange_flat, natural_gap, ring_angles
 
 
 def rectangle(x, y, name="rectangle"):
@@ -20,19 +21,19 @@ def square(side, name="square"):
     return rectangle(side, side, name)
 
 
-@pytest.mark.parametrize("strategy", [s for s in _STRATEGIES if not s.overhang])
+@pytest.mark.parametrize("strategy", [s for s in STRATEGIES if not s.overhang])
 @pytest.mark.parametrize(("columns", "rows"), [(1, 1), (4, 3), (7, 1)])
 def test_a_grid_that_fills_a_surface_is_not_too_many_and_one_more_is(strategy, columns, rows):
     side, gap = 0.1, strategy.least
     room = np.array([columns, rows]) * (side + gap) - gap
     surface = Surface(half_size=(room[0] / 2, room[1] / 2))
     items = [square(side) for _ in range(columns * rows)]
-    assert not _too_many(items, surface, strategy)
-    assert _too_many([*items, square(side)], surface, strategy)
+    assert not too_many(items, surface, strategy)
+    assert too_many([*items, square(side)], surface, strategy)
 
 
 def test_nothing_is_too_much_for_the_ground():
-    assert not any(_too_many([square(1.0)] * 1000, Surface(), strategy) for strategy in _STRATEGIES)
+    assert not any(too_many([square(1.0)] * 1000, Surface(), strategy) for strategy in STRATEGIES)
 
 
 def test_rectangles_stand_apart_on_the_surface():
@@ -43,7 +44,7 @@ def test_rectangles_stand_apart_on_the_surface():
     places = np.array([spots[item.name].position for item in items])
     assert (np.abs(places) + 0.05 <= np.array(surface.half_size) + 1e-9).all()
     apart = np.abs(places[:, None] - places[None]).max(axis=2)[np.triu_indices(5, 1)]
-    assert apart.min() >= 0.1 + min(strategy.least for strategy in _STRATEGIES) - 1e-6
+    assert apart.min() >= 0.1 + min(strategy.least for strategy in STRATEGIES) - 1e-6
 
 
 @pytest.mark.parametrize("order", [("mouse", "laptop"), ("laptop", "mouse")])
@@ -60,7 +61,7 @@ def test_a_mouse_is_right_of_the_laptop_that_it_is_next_to_unless_it_is_said_to_
             assert sign * (spots["mouse"].position - spots["laptop"].position)[0] > 0.15
 
 
-@pytest.mark.parametrize("strategy", [s for s in _STRATEGIES if s.overhang])
+@pytest.mark.parametrize("strategy", [s for s in STRATEGIES if s.overhang])
 @pytest.mark.parametrize("count", [1, 20])
 def test_what_lies_across_and_stands_over_both_edges_as_far_as_it_may_is_not_too_many(strategy, count):
     """A row of long things that fills its surface and what may stand over it, turned by a quarter where they may be.
@@ -72,10 +73,10 @@ def test_what_lies_across_and_stands_over_both_edges_as_far_as_it_may_is_not_too
     inside = (1 - 2 * strategy.overhang) * long
     surface = Surface(half_size=(row / 2, inside / 2))
     if strategy.quarters:
-        assert not _too_many([rectangle(long, wide)] * count, surface, strategy)
+        assert not too_many([rectangle(long, wide)] * count, surface, strategy)
     else:
-        assert not _too_many([rectangle(wide, long)] * count, surface, strategy)
-        assert _too_many([rectangle(wide, long)] * (count + 1), surface, strategy)
+        assert not too_many([rectangle(wide, long)] * count, surface, strategy)
+        assert too_many([rectangle(wide, long)] * (count + 1), surface, strategy)
 
 
 @pytest.mark.parametrize(("share", "expected"), [(0.299, True), (0.301, False)])
@@ -150,7 +151,7 @@ def apart(first, at, second, there):
 
 def searching(items, placed, wishes):
     """A search with some items at their places already."""
-    search = _Search(items, [], Surface(), {}, _STRATEGIES[0], wishes)
+    search = _Search(items, [], Surface(), {}, STRATEGIES[0], wishes)
     by_name = {item.name: item for item in items}
     search.offsets = [one.offsets(by_name, [], search._natural) for one in wishes.formations]
     search.placed = {name: (by_name[name], np.array(spot), False) for name, spot in placed.items()}

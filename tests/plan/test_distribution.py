@@ -117,6 +117,18 @@ def test_two_are_moved_where_each_is_told_by_its_place(planner):
     assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
 
 
+def test_one_and_the_other_are_both_moved(planner):
+    plan = planner.plan("Put one mug on the tray and the other on the shelf.")
+    assert not any(rel.supports for rel in plan.relations)
+    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+
+
+def test_two_are_moved_where_each_is_told_by_where_it_is(planner):
+    plan = planner.plan("Move the mug on the desk to the tray and the one on the table to the shelf.")
+    assert {str(rel) for rel in plan.relations} == {"mug 1 on desk", "mug 2 on table"}
+    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+
+
 def test_two_are_moved_where_each_is_told_by_its_colour(planner):
     plan = planner.plan("Put the red mug on the tray and the blue one on the shelf.")
     assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
@@ -213,3 +225,19 @@ def test_a_part_that_lies_apart_is_named_in_a_note(planner):
     plan = planner.plan("A bottle stands on a table, its cap beside it.")
     assert [str(rel) for rel in plan.relations] == ["bottle on table"]
     assert 'not modelled: "its cap beside it"' in plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "owners", "had"),
+    [
+        ("Two plates of steak on a desk.", ["plate 1", "plate 2"], {"steak": 1}),
+        ("Three crates with bread stand on a bench.", ["crate 1", "crate 2", "crate 3"], {"bread": 1}),
+        ("Three trays with cake on them.", ["tray 1", "tray 2", "tray 3"], {"cake": 1}),
+    ],
+)
+def test_what_is_named_without_a_number_is_had_by_each(
+    planner: GrammarPlanner, prompt: str, owners: list[str], had: dict[str, int]
+):
+    plan = planner.plan(prompt)
+    assert {owner: carries(plan)[owner] for owner in owners} == {owner: Counter(had) for owner in owners}
+    assert not flagged(plan)

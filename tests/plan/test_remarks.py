@@ -64,6 +64,7 @@ def test_a_later_sentence_about_looks_is_named_and_set_aside():
         ("Six cups, all but one upside down, on a shelf.", "Six cups, five of them upside down, on a shelf."),
         ("Five candles, all red except the last one.", "Five candles, four of them red."),
         ("Six apples are divided equally between two bowls.", "Three apples are in each of two bowls."),
+        ("Eight plums are evenly split among the four jars.", "Two plums are in each of four jars."),
         ("The tray is empty except for a pen.", "A pen is on the tray."),
         (
             "The left cup holds a spoon, the right cup a fork.",

@@ -44,6 +44,9 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
          'not modelled: "brontosaurus" of "a brontosaurus stuffed head"'),
         ("Stack the three bowls, the green one at the bottom, the red one on top.",
          'not modelled: "Stack the three bowls, the green one at the bottom, the red one on top": no task does that.'),
+        ("Pick up the largest jug.", 'not modelled: "largest" of "jug": there is only one'),
+        ("A pen is on the second shelf and a book on the fourth shelf.",
+         'counted otherwise: "the fourth shelf"; there are 2'),
         ("A lamp is over a table.", 'not arranged: "A lamp" over "a table"; it is placed on it'),
         ("The tower with three bricks has a red brick at the top.",
          'counted otherwise: "three bricks"; 4 are stacked'),
@@ -144,3 +147,46 @@ def test_in_front_of_what_carries_the_rest_is_said_to_be_read_so():
 )
 def test_what_is_on_it_is_on_the_dish_that_is_told_of(prompt: str, relations: set[str]):
     assert {str(relation) for relation in PLANNER.plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "name"),
+    [
+        ("A green chair and a matching stool stand on a mat.", "green stool"),
+        ("A wooden crate and two matching bowls are on a desk.", "wooden bowl 2"),
+        ("A steel pot and bowl are on a table.", "steel bowl"),
+        ("A wooden table and bench.", "wooden bench"),
+        ("A wooden bowl and banana.", "banana"),
+        ("A wooden table and sofa.", "sofa"),
+    ],
+)
+def test_what_matches_and_what_is_listed_is_of_the_same_colour_and_material(prompt: str, name: str):
+    plan = PLANNER.plan(prompt)
+    assert name in {obj.name for obj in plan.objects}
+    assert not plan.notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "said"),
+    [
+        ("Put a mug on the top shelf and a jar on the middle shelf.", "middle"),
+        ("A blue chair on a mat with two matching stools.", "matching"),
+    ],
+)
+def test_a_word_without_effect_is_in_a_note(prompt: str, said: str):
+    assert any(f'"{said}"' in note for note in PLANNER.plan(prompt).notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "colour"),
+    [
+        ("The jug on the tray is green in color.", "green"),
+        ("The jug on a tray has a green colour.", "green"),
+        ("A jug of a green color stands on a tray.", "green"),
+    ],
+)
+def test_a_colour_by_its_noun_is_that_of_the_thing(prompt: str, colour: str):
+    assert {(obj.name, obj.colours) for obj in PLANNER.plan(prompt).objects} == {
+        (f"{colour} jug", (colour,)),
+        ("tray", ()),
+    }

@@ -7,11 +7,11 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.assets.colours import find_colour
-from pat3d.assets.materials import find_material
 from pat3d.plan.audit.asked import requests
 from pat3d.plan.audit.chained import chained
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
+from pat3d.plan.audit.each import for_each
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
 from pat3d.plan.audit.members import shares
@@ -30,7 +30,6 @@ from pat3d.plan.audit.once import told_once
 from pat3d.plan.audit.places import (
     behind_all,
     carried,
-    for_each,
     grounded,
     insides,
     middle_ones,
@@ -44,15 +43,15 @@ from pat3d.plan.audit.places import (
     unplaced,
     without,
 )
+from pat3d.plan.audit.ranked import ranked
 from pat3d.plan.audit.subjects import misattached
 from pat3d.plan.audit.text import Find, Mention, read, singulars
+from pat3d.plan.audit.unheard import unheard
 from pat3d.plan.audit.words import (
     ARTICLES,
     BREAKING,
-    DEEDS,
     EACH,
     ENDS,
-    FALLEN,
     FORMED,
     HEADLESS,
     NUMBERS,
@@ -68,7 +67,6 @@ from pat3d.plan.audit.words import (
     UNSURE,
 )
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
-from pat3d.scene.arrangements import crossing
 from pat3d.scene.relations import carriers_of
 
 _OF_SEVERAL = ARTICLES | HEADLESS | FORMED | {"from", "in", "of", "line", "tower", "column"}
@@ -78,7 +76,6 @@ _REMARK = re.compile(r'not modelled: "([^"]*)"')
 _REMARK_WORDS = 3
 _SHARE = 8
 """Words of "one to the left of each"."""
-_COLOURS = frozenset({"color", "colors", "colour", "colours", "different", "various", "colored", "coloured"})
 _REACH = 5
 """Words from "a stack" to what it is of."""
 
@@ -140,24 +137,6 @@ def _senses(plan: ScenePlan, find: Find) -> dict[str, str]:
     return made
 
 
-def _shapes(it: Compared) -> frozenset[str]:
-    """Words for how things stand that the plan has."""
-    nouns = {obj.name: obj.noun for obj in it.plan.objects}
-    stacked = any(rel.kind == "on" and nouns[rel.child] == nouns.get(rel.parent) for rel in it.plan.relations)
-    round_about = {one.kind for one in it.plan.arrangements} & {"circle", "around"}
-    lying = any(one.kind == "on_its_side" for one in it.plan.postures)
-    heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
-    return (
-        frozenset({"pyramid"} if heaped else ())
-        | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles", "stacks"} if stacked else ())
-        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
-        | frozenset({"circle", "ring"} if round_about else ())
-        | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
-        | frozenset({"form", "forms"} if any(one.kind == "row" for one in it.plan.arrangements) else ())
-    )
-
-
 class _Auditor(Compared):
     def differences(self) -> list[str]:
         """What the plan lacks or has otherwise, in the order of the prompt."""
@@ -185,7 +164,7 @@ class _Auditor(Compared):
             least, of = self._predicated(at)
             if sum(self.has(obj, word) for obj in of) < least and not self.named(word):
                 made.append((at, f'not in the scene: "{word}"' if least == 1 else f'not as said: "{word}" of all'))
-        made += self._unheard()
+        made += unheard(self)
         nowhere = tuple(unplaced(self))
         made += [(0, note) for note in (*self._made_as(), *nowhere, *shared_out(self))]
         made += [
@@ -208,6 +187,7 @@ class _Auditor(Compared):
             *sizes(self),
             *storeys(self),
             *heights(self),
+            *ranked(self),
         ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
         made += opposite(self)
@@ -371,19 +351,6 @@ class _Auditor(Compared):
                 return True
         return False
 
-    def _halved(self) -> bool:
-        """Whether half of some likes are told from the others by their colour, their posture or what they are on."""
-        turned = {one.object for one in self.plan.postures}
-        for mention in self.said.mentions:
-            names = [obj.name for obj in self.of(mention)]
-            for one in ((obj.colours, obj.name in turned, self.above(obj.name)[:1]) for obj in self.of(mention)):
-                same = sum(
-                    (obj.colours, obj.name in turned, self.above(obj.name)[:1]) == one for obj in self.of(mention)
-                )
-                if 0 < same * 2 == len(names):
-                    return True
-        return False
-
     def _shares(self, at: int) -> bool:
         """Whether word `at` is of ", one in front of each chair": of what is named before, no more of it."""
         words = self.said.words
@@ -418,36 +385,4 @@ class _Auditor(Compared):
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')
-        return made
-
-    def _unheard(self) -> list[tuple[int, str]]:
-        """Words that are in no name, in no phrase of an object and in no note, and mean something."""
-        words = self.said.words
-        named = {at for mention in (*self.said.mentions, *self.said.compounds)
-                 for at in range(mention.start, mention.end)}  # fmt: skip
-        told = [text for obj in self.plan.objects for text in (obj.phrase.lower(), obj.name, *obj.adjectives)]
-        phrases = {word for text in told for word in re.findall(r"[\w'-]+", text)}
-        materials = {obj.material for obj in self.plan.objects if obj.material}
-        asked = self.tasks.strip() or self.undone or "is read as the scene" in self.quoted
-        made: list[tuple[int, str]] = []
-        shapes = _shapes(self)
-        for at, word in enumerate(words):
-            if (
-                at in named
-                or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3], word[:-4]}
-                or word in shapes
-                or word in SILENT
-                or not word[0].isalpha()
-            ):
-                continue
-            acts = word == "robot" and words[at + 1 : at + 2] in (["should"], ["will"], ["finds"], ["can"])
-            hued = word in _COLOURS and len({obj.colours for obj in self.plan.objects}) > 2
-            gone = acts or hued or (word in FALLEN and words[at + 1 : at + 2] in (["out"], ["off"], ["from"], ["down"]))
-            if gone or find_colour(word) or find_material(word) in materials or (word == "half" and self._halved()):
-                continue
-            if not re.search(rf"\b{re.escape(word)}\b", self.quoted) and not (asked and word in DEEDS):
-                start = at
-                while start and find_colour(words[start - 1]) and start - 1 not in named:
-                    start -= 1
-                made.append((at, f'not heard: "{" ".join(words[start : at + 1])}"'))
         return made

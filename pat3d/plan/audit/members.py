@@ -8,8 +8,8 @@ from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.each import for_each
 from pat3d.plan.audit.numbers import had_by_each
-from pat3d.plan.audit.places import for_each
 from pat3d.plan.audit.subjects import row_of
 from pat3d.plan.audit.text import Claim, Mention
 from pat3d.plan.audit.words import EACH, FORMED, HEADLESS, NUMBERS, POSED

@@ -43,12 +43,14 @@ def numbers(it: Compared) -> Iterator[tuple[int, str]]:
 
 
 def had_by_each(it: Compared, mention: Mention) -> bool:
-    """Whether several things have one each of what `mention` names: "two trays hold a burger"."""
+    """Whether several things have one each of `mention`: "two trays hold a burger", "two plates of pizza"."""
+    words = it.said.words
     verbs = [
         claim.at
         for claim in it.said.claims
         if claim.place in ("with", "holding") and claim.end <= mention.end and claim.part == mention.part
     ]
+    verbs += [mention.first - 1] if words[mention.first - 1 : mention.first] == ["of"] else []
     owned = [one for one in it.said.mentions if one.plural and verbs and one.end <= verbs[-1]]
     owners = {obj.name for obj in it.which(owned[-1])} if owned else set()
     of = [{b for a, _, b in it.edges if a == obj.name and b in owners} for obj in it.of(mention)]

@@ -1,4 +1,4 @@
-"""What a plan decides where its sentence is silent: where things are, which of several are meant, how many for each.
+"""What a plan decides where its sentence is silent: where things are, which of several are meant.
 
 None of this needs to know how the sentence was read: a plan in which likes stand apart, or in which something is
 nowhere while the rest is somewhere, has decided that, and a person is to see it.
@@ -16,18 +16,14 @@ from pat3d.plan.audit.text import Mention, singulars
 from pat3d.plan.audit.words import (
     ARTICLES,
     CLOSED,
-    CORNERS,
     DEEDS,
-    EACH,
     ENDS,
     FINITE,
     FLOOR,
     LEADING,
-    NUMBERS,
     OPENING,
     ORDINALS,
     PARTS,
-    PRONOUNS,
     SPLITTING,
 )
 from pat3d.plan.scene_plan import Arrangement, PlannedObject
@@ -37,11 +33,8 @@ _LYING = frozenset({"rug", "mat", "carpet", "doormat", "bath mat", "blanket"})
 """On the floor is what is on these too."""
 _LEAST = {"other": 2, "others": 2, "another": 2, "second": 2, "third": 3}
 """How many there are at least of what a word without a noun is one of."""
-_ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
-"""Words that say on which side of each something is."""
 _NEAR = frozenset({"on", "at", "in"})
 _SIDES = ("side", "end", "corner", "edge")
-_NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
 
 
 def unplaced(it: Compared) -> Iterator[str]:
@@ -349,86 +342,6 @@ def shared_out(it: Compared) -> Iterator[str]:
         if len(kinds) > 1 and phrase.lower() not in it.told:
             where = " and ".join(f'"{kind}"' for kind in sorted(kinds))
             yield f'"{phrase}" are shared out among {where}; who is where is not said'
-
-
-def for_each(it: Compared) -> Iterator[tuple[int, str]]:
-    """Things of which "each", "every" or "either end" wants several, and of which there are fewer."""
-    for at, word in enumerate(it.said.words):
-        if word not in EACH:
-            continue
-        place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
-        if {"but", "except", "save"} & set(it.said.words[at + 1 : at + 4]):
-            # "Every cup but one": of one less.
-            continue
-        before = [mention for mention in it.said.mentions if mention.end <= at]
-        behind = [mention for mention in it.said.mentions if mention.start > at]
-        if place in ENDS or place in CORNERS:
-            # "A bench with a plant at either end", but not "two lamps, one at either side"
-            wanted = 4 if place in CORNERS else 2
-            pair = it.said.words[before[-2].end : before[-1].first] == ["and"] if len(before) > 1 else False
-            told = (
-                before[-1:] if before and not pair and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
-            )
-            yield from _fewer(it, at, told, wanted, f"{word} {place}")
-            continue
-        if word == "either" or place == "other" or (it.said.words[at - 1] == "of" and not place[:1].isalnum()):
-            continue
-        own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
-        if own:
-            # "a fork beside each plate", "each plate holds a bun"
-            owners, things = it.which(own[0])[: own[0].number], _led(it, own[0], at, before, behind[1:])
-        else:
-            plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
-            led = next((claim for claim in it.said.claims if claim.end == at + 1), None)
-            told = [mention for mention in before if led is not None and mention.end == led.at and not mention.plural]
-            owners, things = (it.which(plural[-1]) if plural else []), told or _listed(it, behind)
-            for mention, last in reversed(list(pairwise(plural))):
-                if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
-                    break
-                owners = [*owners, *it.which(mention)]
-        yield from _fewer(it, at, things, len(owners), word)
-
-
-def _led(it: Compared, own: Mention, at: int, before: Sequence[Mention], behind: Sequence[Mention]) -> list[Mention]:
-    """What there is one of for each of `own`: named before "beside each plate", behind "each plate holds"."""
-    claim = next((claim for claim in it.said.claims if claim.of is own or claim.end == at + 1), None)
-    if claim is None:
-        return _listed(it, behind)
-    if claim.at < at and not before:
-        # "Beside each bed is a nightstand with a lamp on it"
-        stop = next(
-            (n for n in range(at, len(it.said.words)) if it.said.words[n] in (",", ";", ".")), len(it.said.words)
-        )
-        return [mention for mention in behind if mention.new and mention.end <= stop]
-    near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING][-1:]
-    for mention in reversed(before[:-1]):
-        # "a fork to the left and a knife to the right of each"
-        between = set(it.said.words[mention.end : near[0].start]) if near else set()
-        if not {"left", "right"} & between or between - {"to", "on", "the", "left", "right", "and"} - ARTICLES:
-            break
-        near.insert(0, mention)
-    return near if claim.at < at else []
-
-
-def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
-    """The first of `behind`, and what "and" joins to it."""
-    made = list(behind[:1])
-    for mention in behind[1:]:
-        between = set(it.said.words[made[-1].end : mention.start]) - _ASIDE
-        if "and" not in between or len(between) > 2 + len(mention.lead) or not mention.new:
-            break
-        made.append(mention)
-    return made
-
-
-def _fewer(it: Compared, at: int, things: Sequence[Mention], wanted: int, said: str) -> Iterator[tuple[int, str]]:
-    for thing in things:
-        there = len(it.which(thing))
-        if said.split()[-1] in ENDS and 1 < there == thing.number:
-            # "two plants on either side of the door"
-            continue
-        if thing.new and 0 < there < wanted * (thing.number or 1) and not it.named(thing.text):
-            yield at, f'not as said: "{said}" wants {wanted * (thing.number or 1)} of "{thing.text}"; there are {there}'
 
 
 def without(it: Compared) -> Iterator[tuple[int, str]]:

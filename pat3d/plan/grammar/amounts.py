@@ -7,10 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.even_shares import counted_in_each, shared, without_shares
 from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.number_words import counted_before, is_number, number_of
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
@@ -32,16 +34,13 @@ _SURROUNDING = frozenset({
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
     whole = _some_of(_one_of_two(_any_of(_rounded(_of_whole(tokens), nouns)), nouns))
-    return _of_each(_equal(_multiples(_shares(_on_sides(whole), nouns), nouns), nouns), nouns)
+    return _of_each(_equal(_multiples(shared(_on_sides(whole), nouns), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
-    return _without_shares(_in_each(_one_and_others(_on_both(_high(_all_but(_every_but(_fractions(tokens)))))), nouns))
-
-
-def _is_number(word: str) -> bool:
-    return word in lexicon.NUMBERS or word.isdecimal() or word.startswith("_")
+    whole = _one_and_others(_on_both(_high(_all_but(_every_but(_fractions(tokens))))))
+    return without_shares(counted_in_each(whole, nouns))
 
 
 def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -49,26 +48,12 @@ def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     single = ("a", "an", "one", "both")
     made: list[Token] = []
     for at, token in enumerate(tokens):
-        about = token.text in _ABOUT and at + 1 < len(tokens) and _is_number(tokens[at + 1].text)
+        about = token.text in _ABOUT and at + 1 < len(tokens) and is_number(tokens[at + 1].text)
         before = tokens[at - 1].text if at and not tokens[at - 1].mark else ""
         place = token.text == "around" and (before in _SURROUNDING or nouns.match([before]) is not None)
         if place or not about or tokens[at + 1].text in single:
             made.append(token)
     return made
-
-
-def _value(word: str) -> int:
-    """The number that `word` is; 0 where it is none of several things."""
-    number = lexicon.NUMBERS.get(word, int(word[:3]) if word.isascii() and word.isdecimal() else 0)
-    return number if number > 1 and word not in ("both", "couple") else 0
-
-
-def _counted_before(tokens: Sequence[Token], at: int, noun: str = "") -> int:
-    """The number of what is spoken of at token `at`: the last one said before it, and of `noun` where that is given."""
-    for n in range(at - 1, -1, -1):
-        if (number := _value(tokens[n].text)) and (not noun or noun in [each.text for each in tokens[n + 1 : n + 4]]):
-            return number
-    return 0
 
 
 def _fractions(tokens: Sequence[Token]) -> list[Token]:
@@ -79,7 +64,7 @@ def _fractions(tokens: Sequence[Token]) -> list[Token]:
         words = [token.text for token in made[at : at + 5]]
         size = 2 if words[:2] == ["half", "of"] else 1
         if words[0] == "half" and words[size] in ("the", "them", "these"):
-            number = _value(words[size + 1]) if words[size] == "the" else _counted_before(made, at)
+            number = number_of(words[size + 1]) if words[size] == "the" else counted_before(made, at)
             if number and number % 2 == 0:
                 half = number // 2
                 of = replace(made[at], text="of")
@@ -105,14 +90,14 @@ def _all_but(tokens: Sequence[Token]) -> list[Token]:
         after = but + 1 + (tokens[but + 1].text in ("for", "from"))
         words = [each.text for each in tokens[after : after + 4]]
         last = words[:2] == ["the", "last"]
-        left = 1 if last or words[0] in ("one", "a") else _value(words[0])
+        left = 1 if last or words[0] in ("one", "a") else number_of(words[0])
         end = after + (2 + (words[2] == "one") if last else 1)
         predicate = tokens[at + 1 : but]
         if not left or words[0] == "a" or link_at(predicate, 0):
             continue
         of = [each.text for each in tokens[end : end + 4]]
         named = of[:2] == ["of", "the"] and len(of) > 2
-        total = (_value(of[2]) if named else 0) or _counted_before(tokens, at, of[2] if named else "")
+        total = (number_of(of[2]) if named else 0) or counted_before(tokens, at, of[2] if named else "")
         if total <= left or (not named and of[:1] == ["of"] and of[1:2] not in (["them"], ["these"], ["those"])):
             continue
         number = replace(token, text="one" if total - left == 1 else str(total - left))
@@ -132,7 +117,7 @@ def _every_but(tokens: Sequence[Token]) -> list[Token]:
             continue
         noun = words[but - 1]
         named = next((n for n in range(at - 1, 0, -1) if noun in singulars(words[n])), 0)
-        total = _counted_before(tokens, named, words[named]) if named else 0
+        total = counted_before(tokens, named, words[named]) if named else 0
         end += words[end] == "one"
         if total < 2 or words[end] not in FINITE:
             continue
@@ -148,12 +133,12 @@ def _every_but(tokens: Sequence[Token]) -> list[Token]:
 def _one_and_others(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "one cup is red, the other two are blue" as "one of the three cups is red, ..."."""
     words = [token.text for token in tokens]
-    other = next((at for at in range(3, len(words) - 2) if words[at] == "other" and _value(words[at + 1])), 0)
+    other = next((at for at in range(3, len(words) - 2) if words[at] == "other" and number_of(words[at + 1])), 0)
     verb = next((at for at in range(2, min(other, 6)) if words[at] in FINITE), 0)
-    if words[0] != "one" or not verb or any(map(_value, words[:other])):
+    if words[0] != "one" or not verb or any(map(number_of, words[:other])):
         return list(tokens)
     of, the = (replace(tokens[0], text=text) for text in ("of", "the"))
-    total = replace(tokens[0], text=str(_value(words[other + 1]) + 1))
+    total = replace(tokens[0], text=str(number_of(words[other + 1]) + 1))
     several = replace(tokens[verb - 1], text=f"{words[verb - 1]}s")
     return [tokens[0], of, the, total, *tokens[1 : verb - 1], several, *tokens[verb:]]
 
@@ -163,10 +148,10 @@ def _high(tokens: Sequence[Token]) -> list[Token]:
     words = [token.text for token in tokens]
     for at in range(1, len(words) - 2):
         number = at + 1 + (words[at + 1] == ",")
-        high = _value(words[number])
+        high = number_of(words[number])
         if words[at] not in ("stacked", "piled") or not high or words[number + 1] != "high":
             continue
-        total = _counted_before(tokens, at) or high
+        total = counted_before(tokens, at) or high
         if total % high:
             continue
         told = ("in", "a", "stack") if total == high else ("in", str(total // high), "stacks", "of", str(high))
@@ -183,7 +168,7 @@ def _on_both(tokens: Sequence[Token]) -> list[Token]:
                 if words[at : at + 2] == ["on", "one"] and words[at + 2] in leads), 0)  # fmt: skip
     other = next((at for at in range(one + 3, len(words) - 3)
                   if words[at : at + 3] == ["on", "the", "other"] and words[at + 3] in leads), 0)  # fmt: skip
-    if not one or not other or _counted_before(tokens, one) != 2:
+    if not one or not other or counted_before(tokens, one) != 2:
         return list(tokens)
     the, first = (replace(tokens[one + 1], text=text) for text in ("the", "first"))
     second = replace(tokens[other + 2], text="second")
@@ -193,7 +178,7 @@ def _on_both(tokens: Sequence[Token]) -> list[Token]:
 def _some_of(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "four of the ten cups are red, the others blue" as "ten cups: four of them are red, ..."."""
     words = [token.text for token in tokens]
-    opens = words[1:3] == ["of", "the"] and 0 < (_value(words[0]) or words[0] == "one") < _value(words[3])
+    opens = words[1:3] == ["of", "the"] and 0 < (number_of(words[0]) or words[0] == "one") < number_of(words[3])
     end = next((at for at in range(4, len(words)) if tokens[at].mark or words[at] in FINITE), 0)
     if not opens or words[end] not in FINITE:
         return list(tokens)
@@ -219,9 +204,9 @@ def _of_whole(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "of three cups, one is red" as "one of three cups is red"."""
     words = [token.text for token in tokens]
     first = 1 + (words[1:2] == ["the"])
-    if words[:1] != ["of"] or not _value(words[min(first, len(words) - 1)]):
+    if words[:1] != ["of"] or not number_of(words[min(first, len(words) - 1)]):
         return list(tokens)
-    at = next((n for n in range(first + 2, min(first + 6, len(words) - 1)) if _is_number(words[n])), 0)
+    at = next((n for n in range(first + 2, min(first + 6, len(words) - 1)) if is_number(words[n])), 0)
     if not at or words[at + 1] not in FINITE:
         return list(tokens)
     end = at - (words[at - 1] == ",")
@@ -234,7 +219,7 @@ def _on_sides(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "two on either side of a cake" as "two to the left of a cake and two to the right of the cake"."""
     words = [token.text for token in tokens]
     for at in range(2, len(words) - 6):
-        several = _value(words[at]) and tokens[at - 1].mark
+        several = number_of(words[at]) and tokens[at - 1].mark
         if not several or words[at + 1] != "on" or words[at + 3 : at + 5] != ["side", "of"]:
             continue
         end = next(n for n in range(at + 6, len(words)) if tokens[n].mark or words[n] == "and" or link_at(tokens, n))
@@ -246,95 +231,6 @@ def _on_sides(tokens: Sequence[Token]) -> list[Token]:
         joint, again = replace(tokens[at], text="and"), [replace(landmark[0], text="the"), *landmark[1:]]
         return [*tokens[: at + 1], *left, *landmark, joint, tokens[at], *right, *again, *tokens[end:]]
     return list(tokens)
-
-
-def _shares(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "six apples divided equally between two bowls" as "three apples in each of two bowls"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 3):
-        first = at - (words[at - 1] in ("equally", "evenly"))
-        between = at + (words[at] in ("equally", "evenly"))
-        if words[first] not in ("split", "divided", "distributed", "shared", "spread") or words[at] != words[first]:
-            continue
-        between = at + 1 + (words[at + 1] in ("equally", "evenly"))
-        evenly = between > at + 1 or first < at
-        among = words[between : between + 1] in (["between"], ["among"], ["over"], ["across"])
-        number = between + 1 + (words[between + 1] == "the")
-        holders = _value(words[number]) if number < len(words) else 0
-        start = next((n for n in range(first - 1, -1, -1) if _value(words[n])), None)
-        if not (evenly and among and holders and start is not None) or _value(words[start]) % holders:
-            continue
-        name = next((n for n in (3, 2, 1) if nouns.match(words[start + 1 : start + 1 + n])), 0)
-        if not name:
-            continue
-        share = _value(words[start]) // holders
-        told = [replace(tokens[between], text=text) for text in ("in", "each", "of")]
-        amount = replace(tokens[start], text="one" if share == 1 else str(share))
-        return [*tokens[:start], amount, *tokens[start + 1 : start + 1 + name], *told, *tokens[number:]]
-    return list(tokens)
-
-
-def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "six apples, two in each of three bowls" as "two apples in each of three bowls".
-
-    Where the shares do not make up the whole they are left as they are: the audit compares them with the plan.
-    """
-    words = [token.text for token in tokens]
-    for each in range(4, len(words) - 2):
-        share = each - next((n for n in (3, 2, 1) if link_at(tokens, each - n) == n), each) - 1
-        share -= 2 * (words[share - 1 : share + 1] in (["of", "them"], ["of", "these"], ["of", "which"]))
-        if words[each] != "each" or share < 3:
-            continue
-        end = share - (words[share - 1] in ("with", "namely"))
-        end -= tokens[end - 1].mark
-        start = next((n for n in range(end - 1, -1, -1) if _value(words[n])), None)
-        if start is None or end == share:
-            continue
-        first = start + 1
-        while first < end - 1 and is_modifier(words[first]) and not nouns.match(words[first:end]):
-            first += 1
-        amount = 1 if words[share] == "one" else _value(words[share])
-        if nouns.match(words[first:end]) and amount * _carriers(tokens, each) == _value(words[start]):
-            behind = share + (3 if words[share + 1] == "of" else 1)
-            return [*tokens[:start], replace(tokens[start], text=words[share]), *tokens[start + 1 : end],
-                    *tokens[behind:]]  # fmt: skip
-    return list(tokens)
-
-
-def _without_shares(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` without ", two in each" behind "six apples are in three bowls": they are shared out evenly anyway."""
-    words = [token.text for token in tokens]
-    for each in (at for at in range(6, len(words) - 1) if words[at] == "each"):
-        tail = next((n for n in range(each - 1, each - 6, -1) if tokens[n].mark), each)
-        start = max((n + 1 for n in range(tail) if words[n] == "."), default=0)
-        counted = [n for n in range(start, tail) if _value(words[n])]
-        share = tail + 1 + (words[tail + 1] == "with")
-        if len(counted) != 2 or words[tail] != "," or "and" in words[slice(*counted)]:
-            continue
-        amount = 1 if words[share] == "one" else _value(words[share])
-        few, many = sorted(_value(words[n]) for n in counted)
-        end = each + 1
-        while (
-            end < each + 4
-            and not tokens[end].mark
-            and {words[end], f"{words[end]}s"} & {"of", "them", *words[start:tail]}
-        ):
-            end += 1
-        placed = share + 1 == each or link_at(tokens, share + 1) == each - share - 1
-        if amount * few == many and placed and tokens[end].mark:
-            return [*tokens[:tail], *tokens[end:]]
-    return list(tokens)
-
-
-def _carriers(tokens: Sequence[Token], each: int) -> int:
-    """How many there are of what "each" at token `each` is said of: "each of three bowls", "each bowl"."""
-    words = [token.text for token in tokens]
-    after = each + 1 + (words[each + 1] == "of") + ("the" in words[each + 1 : each + 3])
-    named = words[min(after, len(words) - 1)]
-    if words[each + 1] == "of":
-        return _value(named) or _counted_before(tokens, each, named)
-    several = [token.text for token in tokens[:each] if named in singulars(token.text)]
-    return _counted_before(tokens, each, several[-1]) if several else 0
 
 
 def _any_of(tokens: Sequence[Token]) -> list[Token]:
@@ -356,13 +252,13 @@ def _multiples(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if not at or words[at - 1] not in ("half", "twice", "times"):
         return list(tokens)
     first = at - (2 if words[at - 1] == "times" else 1)
-    factor = {"half": 0.5, "twice": 2.0}.get(words[at - 1], float(_value(words[first])))
+    factor = {"half": 0.5, "twice": 2.0}.get(words[at - 1], float(number_of(words[first])))
     end = next((n for n in range(at + 3, min(at + 6, len(words))) if words[n] == "as"), 0)
     if end and not any((found := nouns.match([word])) and found.plural for word in words[end + 1 : end + 4]):
         return list(tokens)
     before = end + 1 + (words[end + 1] in ("the", "there")) if end else next(
-        (n for n in range(first - 1, -1, -1) if _value(words[n])), 0)  # fmt: skip
-    number = _value(words[before]) or (1 if words[before] in ("a", "an", "one") else 0)
+        (n for n in range(first - 1, -1, -1) if number_of(words[n])), 0)  # fmt: skip
+    number = number_of(words[before]) or (1 if words[before] in ("a", "an", "one") else 0)
     told = number or (lexicon.BARE_PLURAL + 1 if end else 0)
     if not factor or told * factor != int(told * factor):
         return list(tokens)
@@ -384,20 +280,18 @@ def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if end is not None and words[end + 1] == "there":
         return list(tokens)
     if end is not None:
-        namely = next(
-            (n for n in range(end, len(words) - 1) if words[n] == "namely" and _is_number(words[n + 1])), None
-        )
+        namely = next((n for n in range(end, len(words) - 1) if words[n] == "namely" and is_number(words[n + 1])), None)
         if namely is not None:
             number = tokens[namely + 1]
             end_of = namely - (words[namely - 1] == ",")
             tokens = [*tokens[: end + 1], number, *tokens[end + 1 : end_of], *tokens[namely + 2 :]]
             words = [token.text for token in tokens]
         joint = replace(tokens[end], text="and")
-        number = next((n for n in range(end + 1, min(end + 3, len(words))) if _is_number(words[n])), None)
+        number = next((n for n in range(end + 1, min(end + 3, len(words))) if is_number(words[n])), None)
         same = [tokens[number]] if number is not None else []
         return [*tokens[:at], *same, *tokens[at + 2 : end], joint, *tokens[end + 1 :]]
     before = next(
-        (n for n in range(at - 1, -1, -1) if _is_number(words[n]) and lexicon.NUMBERS.get(words[n], 2) > 1), None
+        (n for n in range(at - 1, -1, -1) if is_number(words[n]) and lexicon.NUMBERS.get(words[n], 2) > 1), None
     )
     if before is None or not any(nouns.match(words[n : n + 1]) for n in range(before, at)):
         return list(tokens)
@@ -408,7 +302,7 @@ def _of_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "mugs and bowls, three of each," as "three mugs and three bowls"."""
     words = [token.text for token in tokens]
     at = next((n for n in range(1, len(words) - 3)
-               if _is_number(words[n]) and words[n + 1 : n + 3] == ["of", "each"] and tokens[n + 3].mark),
+               if is_number(words[n]) and words[n + 1 : n + 3] == ["of", "each"] and tokens[n + 3].mark),
               None)  # fmt: skip
     if at is None or words[at - 1] not in (",", ":", "-"):
         return list(tokens)
@@ -416,8 +310,8 @@ def _of_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     heads = [n for n in range(at - 1) if singulars(words[n]) and nouns.match([words[n]])]
     for head in reversed(heads[-2:]):
         first = head
-        while first and is_modifier(words[first - 1]) and not _is_number(words[first - 1]):
+        while first and is_modifier(words[first - 1]) and not is_number(words[first - 1]):
             first -= 1
-        if not first or not _is_number(words[first - 1]):
+        if not first or not is_number(words[first - 1]):
             made.insert(first, replace(tokens[at], start=tokens[first].start, end=tokens[first].start))
     return made

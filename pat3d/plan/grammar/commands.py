@@ -23,6 +23,9 @@ _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", 
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
 _SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
 _HANDING = (["give"], ["hand"], ["pass"])
+_GIVEN = frozenset({"shake", "wipe", "stir", "spin", "rinse", "push", "pull", "turn", "twist", "wash", "squeeze",
+    "polish", "tap", "nudge", "kick", "scrub", "wiggle", "flip", "tilt", "brush"})  # fmt: skip
+"""What something is given that is done to it."""
 _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
 _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "operator"}
@@ -30,7 +33,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _swapped(brought(put_back(together(closed(_in_full(tokens))))))
+    told = _given(_swapped(brought(put_back(together(closed(_in_full(tokens)))))))
     return _handed(_fronted(_sideways(_ordered(_told_once(_lined_up(told))))))
 
 
@@ -107,6 +110,22 @@ def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
         last = replace(tokens[verb - 1], end=tokens[place].end)
         return [asked, *tokens[first : verb - 1], last, *tokens[place + 1 :]]
     return tokens
+
+
+def _given(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "give the can a shake" as "shake the can"."""
+    words = [token.text for token in tokens]
+    give = words.index("give") if "give" in words else -1
+    a = next((n for n in range(give + 2, min(give + 8, len(words) - 2)) if words[n] in ("a", "another")), 0)
+    deed = a + 1 + (words[a + 1] in ("good", "quick", "gentle", "little", "light", "firm"))
+    to = words[give + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"} if a else False
+    if give < 0 or not to or words[deed] not in _GIVEN or any(token.mark for token in tokens[give:deed]):
+        return tokens
+    if not (tokens[deed + 1].mark or words[deed + 1] in ("and", "then")):
+        return tokens
+    done = replace(tokens[deed], start=tokens[give].start, end=tokens[give].end)
+    last = replace(tokens[a - 1], end=tokens[deed].end)
+    return [*tokens[:give], done, *tokens[give + 1 : a - 1], last, *tokens[deed + 1 :]]
 
 
 def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:

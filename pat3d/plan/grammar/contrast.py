@@ -12,7 +12,7 @@ from pat3d.plan.grammar.objects import tell
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.pronouns import Pronouns
 from pat3d.plan.grammar.world import Group, Item
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 
 class Contrast(Pronouns):
@@ -113,6 +113,11 @@ class Contrast(Pronouns):
             return None
         link, phrase = behind[0].relation, behind[1].named
         return (link.kind, link.manner), phrase.noun or phrase.head
+
+    def _tells_place(self, at: int) -> bool:
+        """Whether a relation to the side right behind chunk `at` tells which one of several it is."""
+        told = self._place_of(at)
+        return told is not None and told[0][0] in LATERAL_KINDS and not self._chunks[at + 1].relation.finite
 
     def _subject_before(self, at: int) -> list[Item]:
         """The one object that the sentence before chunk `at` tells the place of, as it does of chunk `at`."""

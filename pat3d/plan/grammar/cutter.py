@@ -15,7 +15,7 @@ from pat3d.plan.grammar.links import LINKS, LONGEST_LINK, Link
 from pat3d.plan.grammar.measures import Measure, is_measure
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers, is_colour_word, is_marked, is_modifier, read_modifiers
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.plausible import sense
+from pat3d.plan.grammar.senses import SENSES, sense
 
 _JOINED = (
     ("along", "with"), ("together", "with"), ("as", "well", "as"), ("accompanied", "by"), ("next", "comes"),
@@ -219,7 +219,7 @@ class Cutter(Asides):
     def _sense(self, phrase: Phrase) -> Phrase:
         """`phrase` as what its company tells it to be, where its word alone has several meanings."""
         bare = phrase.said == phrase.head or phrase.said in singulars(phrase.head)
-        meanings = lexicon.SENSES.get(phrase.head) or lexicon.SENSES.get(phrase.said)
+        meanings = SENSES.get(phrase.head) or SENSES.get(phrase.said)
         if not bare or meanings is None:
             return phrase
         senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]

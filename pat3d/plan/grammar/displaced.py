@@ -18,6 +18,8 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _FINITE = lexicon.COPULAS | lexicon.VERBS
+NEARNESS = frozenset({"closer", "closest", "nearer", "nearest"})
+_TAKING = frozenset({"pick", "grab", "lift", "grasp"})
 
 
 def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -27,10 +29,29 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """
     tokens = [
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
-        for token, follower in pairwise([*tokens, tokens[-1]])
+        for token, follower in pairwise([*_nearer(tokens, nouns), tokens[-1]])
     ]
     tokens = _another_place(_on_another(tokens, nouns), nouns)
     return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(tokens))))))
+
+
+def _nearer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the can that's closer to the box" as "the can nearest to the box", where it tells which can."""
+    words = [token.text for token in tokens]
+    made = list(tokens)
+    for at in range(len(words) - 2, 1, -1):
+        if words[at] not in NEARNESS or "than" in words:
+            continue
+        relative = words[at - 2] in ("that", "which") and words[at - 1] in ("is", "'s")
+        start = at - 2 if relative else at
+        name = next((n for n in (3, 2, 1) if n < start and nouns.match(words[start - n : start])), 0)
+        named = name and words[start - name - 1] == "the"
+        # "Move the can closer to the box" is no name.
+        picked = words[0] in _TAKING or start == name + 1 or relative
+        if named and picked:
+            to = [] if words[at + 1] == "to" else [replace(tokens[at], text="to")]
+            made[start : at + 1] = [replace(tokens[at], text="nearest"), *to]
+    return made
 
 
 def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -55,6 +55,9 @@ def share(
     if all_of:
         return "each"
     beside = link.manner == "place" and link.kind not in SUPPORT_KINDS
+    if not beside and len(_groups(owners)) == 1 and _unnumbered(groups) and _dishes(world, owners[0]):
+        # "Two plates of pizza", "three boxes with bread in them"
+        return "each"
     if not having or beside or not any(_single(group, filling=link.filling) for group in groups):
         return "as counted"
     single = all(_single(group, filling=link.filling) for group in groups)
@@ -94,6 +97,16 @@ def all_like(items: Sequence[Item]) -> list[Item]:
 
 def _groups(items: Sequence[Item]) -> list[Group]:
     return list(dict.fromkeys(item.group for item in items))
+
+
+def _unnumbered(groups: Sequence[Group]) -> bool:
+    """Whether each of `groups` is one thing named as what there is some of: "pizza"."""
+    some = [not (group.phrase.determined or group.phrase.plural or group.counted) for group in groups]
+    return all(len(group.items) == 1 and not group.cycle for group in groups) and all(some)
+
+
+def _dishes(world: World, owner: Item) -> bool:
+    return world.is_a(owner, lexicon.HOLLOW, lexicon.DISHES) or world.flat(owner)
 
 
 def _single(group: Group, *, filling: bool) -> bool:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.cells import in_the_whole
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.lexicon import SIZES
 from pat3d.plan.grammar.likes import likes_named, with_noun
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.parallels import told_alike
@@ -15,6 +15,11 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _SIDES = {"left": "left", "right": "right", "centre": "middle", "on top": "top"}
+_HARD = frozenset(
+    {"wood", "bamboo", "stone", "glass", "ceramic", "porcelain", "metal", "steel", "iron", "brass", "plastic"}
+)
+_SOFT = ("sofa", "armchair", "couch", "bed", "rug", "carpet", "plant", "potted plant", "tree", "bag", "handbag",
+         "backpack", "rose", "flower", "tulip", "sunflower", "carrot", "banana")  # fmt: skip
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
@@ -24,7 +29,7 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] =
     `known` are the phrases of what was named before them.
     """
     told = likes_named(_from_below(_described(_gapped(_full(chunks)))), nouns, known)
-    return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known))))
+    return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns)))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:
@@ -94,17 +99,29 @@ def _told_before(phrase: Phrase | None, before: Sequence[Chunk]) -> bool:
                                            if chunk.phrase is not None and chunk.phrase.kind == "object")  # fmt: skip
 
 
-def _alike(chunks: list[Chunk]) -> list[Chunk]:
-    """`chunks` with "a white plate and bowl" as "a white plate and a white bowl"."""
+def _alike(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
+    """`chunks` with "a white plate and bowl" as "a white plate and a white bowl", and so of a material."""
     for at, (first, joint, second) in enumerate(zip(chunks, chunks[1:], chunks[2:], strict=False)):
         one, other = first.phrase, second.phrase
         pair = one is not None and other is not None and one.kind == other.kind == "object" and joint.text == "and"
         if pair and one.determined and one.count is None and not (other.determined or other.plural or one.plural):  # type: ignore[union-attr]
-            colours = one.modifiers.colours  # type: ignore[union-attr]
+            words = one.modifiers  # type: ignore[union-attr]
             if other.modifiers == NO_MODIFIERS:  # type: ignore[union-attr]
-                alike = replace(other, modifiers=replace(NO_MODIFIERS, colours=colours))  # type: ignore[type-var]
-                chunks[at + 2] = replace(second, phrase=alike)
+                own = replace(NO_MODIFIERS, colours=words.colours)
+                if words.material_word and words.material in _HARD and _made_alike(one, other, nouns):
+                    own = replace(own, material=words.material, material_word=words.material_word)
+                chunks[at + 2] = replace(second, phrase=replace(other, modifiers=own))  # type: ignore[type-var]
     return chunks
+
+
+def _made_alike(one: Phrase | None, other: Phrase | None, nouns: Nouns) -> bool:
+    """Whether both are furniture with nothing soft, or both things of the table: what one material is said of."""
+    named = [phrase.noun for phrase in (one, other) if phrase is not None]
+    if any(nouns.of_class(noun, _SOFT) for noun in named):
+        return False
+    table = (lexicon.HOLLOW, lexicon.DISHES, lexicon.BOWLS, lexicon.NARROW, lexicon.SLENDER)
+    ware = all(any(nouns.of_class(noun, each) for each in table) for noun in named)
+    return ware or all(nouns.of_class(noun, lexicon.FLOOR) for noun in named)
 
 
 def _the_one(phrase: Phrase | None) -> bool:
@@ -224,7 +241,7 @@ def _lends(follower: Phrase, phrase: Phrase) -> bool:
     ours, theirs = phrase.modifiers, follower.modifiers
     alike = (
         bool(ours.colours) == bool(theirs.colours)
-        and bool(ours.size_word) == bool(theirs.size_word or set(follower.said.split()) & SIZES.keys())
+        and bool(ours.size_word) == bool(theirs.size_word or set(follower.said.split()) & lexicon.SIZES.keys())
         and (bool(ours.material) == bool(theirs.material) or bool(ours.colours))
     )
     return follower.kind in ("object", "unknown") and follower.determined and alike

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier, looks_like_adjective
+from pat3d.plan.grammar.number_words import numeral
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _BOTTLED = frozenset({"ketchup", "mustard", "mayonnaise", "vinegar"})
@@ -45,10 +46,6 @@ def _items(tokens: Sequence[Token]) -> list[Item]:
         else:
             made[-1].append(token)
     return [item for item in made if item]
-
-
-def _number(word: str) -> int:
-    return lexicon.NUMBERS.get(word, int(word[:3]) if word.isascii() and word.isdecimal() else 0)
 
 
 def _start(words: Sequence[str], end: int) -> int:
@@ -98,10 +95,10 @@ def _in_brackets(text: str, tokens: list[Token], nouns: Nouns) -> list[Token]:
         if not close or len(listed) < 2 or name == end:
             continue
         first = _start(words, name)
-        count = next((_number(word) for word in words[first:name] if _number(word) > 1), said)
+        count = next((numeral(word) for word in words[first:name] if numeral(word) > 1), said)
         if all(len(item) == 1 and is_colour_word(item[0].text) for item in listed):
             if count in (0, len(listed)):
-                told = any(_number(word) == count for word in words[first:name]) if count else False
+                told = any(numeral(word) == count for word in words[first:name]) if count else False
                 number = [] if told else [replace(tokens[name], text=str(len(listed)))]
                 comma = replace(tokens[at], text=",", mark=True)
                 colours = [one for item in listed for one in (item[0], comma)][:-1]
@@ -109,10 +106,10 @@ def _in_brackets(text: str, tokens: list[Token], nouns: Nouns) -> list[Token]:
                 kept = [token for token in tokens[lead:name] if token.text not in _MANY_COLOURED]
                 made = [*tokens[:lead], *number, *kept, *colours, *tokens[name:end], *tokens[close + 1 :]]
                 return _in_brackets(text, made, nouns)
-        elif all(len(item) == 2 and _number(item[0].text) and is_colour_word(item[1].text) for item in listed):
+        elif all(len(item) == 2 and numeral(item[0].text) and is_colour_word(item[1].text) for item in listed):
             if not count:
                 # "the cups (one red, two blue)"
-                total = sum(_number(item[0].text) for item in listed)
+                total = sum(numeral(item[0].text) for item in listed)
                 return [*tokens[:name], replace(tokens[name], text=str(total)), *tokens[name:]]
         elif _is_it(listed, count, generic, nouns):
             first = _described(words, first)
@@ -130,7 +127,7 @@ def _different(words: Sequence[str], at: int) -> tuple[int, int]:
     if words[at - 1] in ("colors", "colours") and "of" in words[max(at - 4, 0) : at]:
         of = max(n for n in range(at) if words[n] == "of")
         if {*words[of + 1 : at - 1]} <= {"different", "various", *lexicon.NUMBERS}:
-            return of, next((_number(word) for word in words[of:at] if _number(word)), 0)
+            return of, next((numeral(word) for word in words[of:at] if numeral(word)), 0)
     return at, 0
 
 
@@ -138,7 +135,7 @@ def _is_it(listed: Sequence[Item], count: int, generic: bool, nouns: Nouns) -> b
     """Whether the things of the list are those that were counted."""
     named = all(nouns.longest([token.text for token in item]) for item in listed)
     headless = all(is_colour_word(item[-1].text) for item in listed)
-    total = sum(_number(item[0].text) or 1 for item in listed)
+    total = sum(numeral(item[0].text) or 1 for item in listed)
     return named and not headless and (generic or total == count)
 
 
@@ -163,14 +160,14 @@ def _set_off_colours(tokens: list[Token]) -> list[Token]:
     """`tokens` with "three mugs, red, green and blue, stand" as "three red, green and blue mugs stand"."""
     words = [token.text for token in tokens]
     for at in range(2, len(tokens) - 3):
-        if words[at] != "," or not is_colour_word(words[at + 1]) or _number(words[at - 2]) < 2:
+        if words[at] != "," or not is_colour_word(words[at + 1]) or numeral(words[at - 2]) < 2:
             continue
         end = at + 1
         while end < len(tokens) and (words[end] in (",", "and") or is_colour_word(words[end])):
             end += 1
         listed = _items(tokens[at + 1 : end])
         closed = words[end - 1] == "," or words[end] == "."
-        if closed and len(listed) == _number(words[at - 2]):
+        if closed and len(listed) == numeral(words[at - 2]):
             colours = [one for item in listed for one in (item[0], tokens[at])][:-1]
             return [*tokens[: at - 1], *colours, tokens[at - 1], *tokens[end:]]
     return tokens
@@ -211,7 +208,7 @@ def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:
     for colon in (n for n in range(2, len(words)) if words[n] == ":"):
         end = next((n for n in range(colon + 1, len(words)) if tokens[n].mark and words[n] != ","), len(words))
         listed = _items(tokens[colon + 1 : end])
-        start = next((n for n in range(colon - 1) if _number(words[n]) == len(listed) > 1), None)
+        start = next((n for n in range(colon - 1) if numeral(words[n]) == len(listed) > 1), None)
         kinds = all(len(item) <= 2 and item[0].text not in _LEADING and not singulars(item[-1].text) for item in listed)
         kinds = kinds and not all(is_modifier(item[-1].text) for item in listed)
         if start is None or not kinds:
@@ -246,7 +243,7 @@ def _oranges(tokens: list[Token], nouns: Nouns) -> list[Token]:
             before -= 1
         led = _items(tokens[before:at])
         alone = sum(len(item) <= 2 and is_colour_word(item[-1].text) for item in led)
-        several = _number(words[at - 1]) > 1
+        several = numeral(words[at - 1]) > 1
         after = at + 1
         while words[after] in (",", "and") or words[after] in _LEADING:
             after += 1

@@ -32,7 +32,7 @@ _AFTER = (
 )
 _ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
                ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
-_ONES = frozenset({"one", "ones", "other", "others", "second", "first", "third", "last", "rest"})
+_REST = frozenset({"rest", "others"})
 _HAVING_TO = tuple(tuple(said.split()) for said in (
     "should be", "must be", "needs to be", "need to be", "has to be", "have to be", "is to be", "are to be", "shall be",
     "ought to be", "be",
@@ -48,7 +48,7 @@ def errands(tokens: Sequence[Token]) -> list[Token]:
     made = _sorted(_belonging(_owed(list(tokens))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _once_more(_once_again(_added(_carried(_emptied(_put_back(_one_by_one(made)))))))
+    return _the_rest(_once_again(_added(_carried(_emptied(_put_back(_one_by_one(made)))))))
 
 
 def _commands(tokens: Sequence[Token], at: int) -> bool:
@@ -174,8 +174,8 @@ def _once_again(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
-def _once_more(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the red cup on the tray and the blue one on the shelf" as "and put the blue one"."""
+def _the_rest(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "put two of the cups on the tray and the rest on the shelf" as "and put the rest"."""
     for at in range(len(tokens)):
         if not _commands(tokens, at) or tokens[at].text not in _PUTTING:
             continue
@@ -187,8 +187,8 @@ def _once_more(tokens: Sequence[Token]) -> list[Token]:
             if words[joint] != "and" or words[first] == "between" or not _leads(tokens, name):
                 continue
             link = next((n for n in range(name, end) if link_at(tokens, n) and words[n] != "of"), 0)
-            if link and words[link - 1] in _ONES:
-                return [*tokens[:name], replace(tokens[at], number=tokens[name].number), *_once_more(tokens[name:])]
+            if link and words[link - 1] in _REST:
+                return [*tokens[:name], replace(tokens[at], number=tokens[name].number), *_the_rest(tokens[name:])]
     return list(tokens)
 
 

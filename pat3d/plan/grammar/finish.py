@@ -47,7 +47,8 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         like = [other for other in world.items() if other.group.noun == item.group.noun]
         if item.place and len(like) == 1:
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')
-        if item.place in lexicon.LEVELS and item.group.height == 1 and len(like) > 1:
+        levels = {*lexicon.LEVELS, *(["middle"] if any(other.place in lexicon.LEVELS for other in like) else [])}
+        if item.place in levels and item.group.height == 1 and len(like) > 1:
             world.note(f'"{item.place}": "{item.group.words}" are not said to be stacked.')
     world.groups = [group for group in world.groups if not group.replaced]
     there = set(world.items())

@@ -191,6 +191,8 @@ class Interpreter(Placing):
         heard = {fact[1] for fact in facts if isinstance(fact[1], int)}
         heard |= {head for fact in facts for part in fact[2:] if isinstance(part, tuple) for head in part}
         owned = {head for fact in facts if fact[0] in ("have", "list", "include", "rel") for head in fact[3]}
+        # "with a label on each": of each.
+        owned |= {head for fact in facts if fact[0] == "rel" and self._said.each & {*fact[3]} for head in fact[2]}
         for at, chunk in enumerate(self._chunks):
             if chunk.kind in ("rel", "have", "place", "form", "quality") and at not in heard:
                 self._world.note(f'not understood: "{chunk.text}"')

@@ -112,7 +112,7 @@ class Judging:
 
     def _carries_it(self, link: Link, named: Node, modifier: Node) -> float:
         """How surely what is "on it" in `modifier` is on `named`: "a plate on a desk with a bun on it"."""
-        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) > 1:
+        if link.kind not in SUPPORT_KINDS or link.manner != "place" or len(named.heads) != 1:
             return 0.0
         its = {fact[1] for fact in modifier.facts if fact[0] == "bind" and fact[2] == modifier.heads}
         rels = [fact for fact in modifier.facts if fact[0] == "rel" and its & set(fact[3])]

@@ -7,11 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _ORDINALS = ("first", "second", "third", "fourth", "fifth")
+LABELLED = frozenset({"labelled", "labeled", "marked", "lettered", "numbered", "named", "called"})
 
 
 def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -26,6 +27,12 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             name = " ".join(words[-size:])
             labels.setdefault(name, {})[label] = None
             found[at] = size, name
+    for at, token in enumerate(tokens):
+        several = nouns.match([tokens[at - 1].text]) if at and token.text in LABELLED else None
+        if several is not None and several.plural:
+            listed = [each.text for each in tokens[at + 1 : labels_end(tokens, at)] if each.text not in (",", "and")]
+            for name in singulars(tokens[at - 1].text) if listed == sorted(listed) else ():
+                labels.setdefault(name, {}).update(dict.fromkeys(listed))
     told = {name: sorted(each) for name, each in labels.items() if 2 <= len(each) <= len(_ORDINALS)}
     made: list[Token] = []
     for at, token in enumerate(tokens):
@@ -41,6 +48,20 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             before, article = before[:-1], [replace(ordinal, text="the")]
         made = [*before, *article, ordinal, *named]
     return made
+
+
+def labels_end(tokens: Sequence[Token], at: int) -> int:
+    """The token behind the letters or numbers of "labelled A, B and C", which begins at token `at`; 0 without two."""
+    end, found, last = at + 1, 0, 0
+    while end < len(tokens) - 1:
+        word = tokens[end].text
+        apart = end > at + 1 and tokens[end - 1].text not in (",", "and")
+        if word.isalnum() and len(word) == 1 and not apart and (word != "a" or not found):
+            found, last = found + 1, end + 1
+        elif word not in (",", "and"):
+            break
+        end += 1
+    return last if found > 1 else 0
 
 
 def _label(text: str, tokens: Sequence[Token], at: int) -> str:

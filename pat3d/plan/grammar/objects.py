@@ -42,6 +42,7 @@ class Maker:
         Raises:
             PromptError: the noun is unknown and proxies are not allowed, or the count is impossible.
         """
+        phrase = _matched(world, phrase)
         phrase, whole = self._ordered(world, phrase), phrase
         ordered = phrase is not whole
         noun, said, proxy = phrase.noun, phrase.said, False
@@ -244,6 +245,19 @@ class Maker:
         material = kind.modifiers.material or ("plush" if word in ("plush", "stuffed", "soft") else None)
         if material and not group.modifiers.material and not world.likely.is_a(group.noun, _SOFT_ALREADY):
             group.modifiers = replace(group.modifiers, material=material)
+
+
+def _matched(world: World, phrase: Phrase) -> Phrase:
+    """`phrase` in the colour and of the material of what it matches: "a red sofa and two matching armchairs"."""
+    own, there = phrase.modifiers, [group for group in world.groups if not group.replaced]
+    if "matching" not in own.adjectives or own.colours or own.palette or own.material or not there:
+        return phrase
+    like = there[-1].modifiers
+    colours = like.colours if len(like.colours) < 2 or len(there[-1].items) == 1 else ()
+    if not (colours or like.material) and any(group.modifiers.colours for group in there):
+        world.note(f'"matching" of "{phrase.words}": what it matches is not told; it is made as usual.')
+    alike = replace(own, colours=colours, material=like.material, material_word=like.material_word)
+    return replace(phrase, modifiers=alike)
 
 
 def share_colours(group: Group) -> None:

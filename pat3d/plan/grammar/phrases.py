@@ -9,8 +9,10 @@ from typing import Literal
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar import lexicon, shapes
 from pat3d.plan.grammar.boundaries import Boundaries
+from pat3d.plan.grammar.determiners import opening
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, ORDINALS, Modifiers, is_modifier, read_modifiers, telling
+from pat3d.plan.grammar.senses import PACKED
 from pat3d.plan.grammar.shapes import PYRAMID, RINGS, USUAL_PYRAMID, can_be_pyramid, grid_size, refuse, shape_said
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -88,7 +90,7 @@ class PhraseReader:
 
     def read(self, start: int, depth: int = 0) -> tuple[Phrase, int] | None:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
-        at, count, flags = self._opening(start)
+        at, count, flags = opening(self._tokens, start)
         self._definite = flags.get("definite", False)
         run, after = self._bounds.run(at)
         tokens = self._tokens
@@ -164,65 +166,12 @@ class PhraseReader:
         return Phrase(kind="pieces", head=word.text, number=word.number, words=words, determined=True, definite=True,
                       modifiers=told), after  # fmt: skip
 
-    def _opening(self, at: int) -> tuple[int, int | None, dict[str, bool]]:
-        """Determiners and numbers from token `at`: the token after them, the count and the flags of Phrase."""
-        count: int | None = None
-        flags: dict[str, bool] = {}
-        while not (token := self._tokens[at]).mark:
-            word = token.text
-            follower = self._tokens[at + 1].text
-            if word == "each" and follower == "of":
-                flags["each"] = flags["determined"] = True
-                at += 1
-            elif word in lexicon.POSSESSIVES:
-                flags["possessive"] = flags["definite"] = True
-            elif word == "half" and follower in ("a", "dozen"):
-                count, at = 6, at + (2 if follower == "a" else 1)
-                flags["determined"] = True
-            elif word in ("dozen", "couple", "pair", "trio", "set") and follower == "of":
-                break
-            elif word in ("dozen", "hundred", "thousand") and (count is not None or flags.get("determined")):
-                count = (count or 1) * lexicon.NUMBERS[word]
-            elif word in lexicon.NUMBERS and word not in ("couple", "dozen", "trio", "single"):
-                count = lexicon.NUMBERS[word]
-                flags["determined"] = True
-                flags["one"] = word == "one"
-                if word == "both":
-                    flags["definite"] = True
-            elif word.isascii() and word.isdecimal():
-                count = int(word[:9])
-                flags["determined"] = True
-            elif word in lexicon.VAGUE and word != "couple":
-                count = lexicon.VAGUE[word]
-                flags["determined"] = flags["vague"] = True
-            elif word in ("couple", "dozen") and not self._tokens[at + 1].mark:
-                count = lexicon.NUMBERS[word]
-            elif word == "more" and count is not None and "another" not in flags:
-                flags["another"] = True
-            elif word in ("a", "an") and flags.get("determined"):
-                # "and that one a lemon" is of two things.
-                break
-            elif word in lexicon.DETERMINERS:
-                flags["determined"] = True
-                if word == "another":
-                    flags["another"] = True
-                if word in lexicon.DEFINITE:
-                    flags["definite"] = True
-                if word in ("each", "every"):
-                    flags["each"] = True
-            elif word in ("other", "same", "single") and flags.get("determined"):
-                flags["other"] = word == "other"
-            else:
-                break
-            at += 1
-        return at, count, flags
-
     def _simple(self, run: list[Token], count: int | None) -> Phrase:
         """The phrase of a run without "of"."""
         words = [token.text for token in run]
         head, number = words[-1], run[-1].number
-        if head in lexicon.PACKED and self._definite and self._nouns.match([head]) is None:
-            packed = self._nouns.match(lexicon.PACKED[head].split())
+        if head in PACKED and self._definite and self._nouns.match([head]) is None:
+            packed = self._nouns.match(PACKED[head].split())
             if packed is not None:
                 return Phrase(kind="object", head=head, number=number, count=count, noun=packed.noun, said=packed.said,
                               modifiers=read_modifiers(words[:-1]))  # fmt: skip

@@ -23,8 +23,10 @@ from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses, known_verb
 from pat3d.plan.grammar.interpret import Interpreter
+from pat3d.plan.grammar.left_out import doing_nothing, quoted, without
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.manners import without_manners
 from pat3d.plan.grammar.names import catalogue_names
 from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
@@ -38,6 +40,7 @@ from pat3d.plan.grammar.rules import Grammar
 from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.tails import Tails
+from pat3d.plan.grammar.talk import without_talk
 from pat3d.plan.grammar.tasks import task_of
 from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
@@ -106,10 +109,11 @@ class GrammarPlanner:
         check_language(text)
         tokens = worked_out(chessmen(ordinals(text, tokenise(text), self._nouns)), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
-        told = [clause for sentence in sentences(tokens, self._nouns) for clause in self._clauses(text, sentence)]
+        spoken, talk = without_talk(sentences(tokens, self._nouns), self._nouns)
+        told = [clause for sentence in spoken for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
-        world.notes += [f'not modelled: "{said}"' for said in beside_robot]
+        world.notes += [f'not modelled: "{said}"' for said in (*(quoted(text, span) for span in talk), *beside_robot)]
         world.aside += means
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)
@@ -134,18 +138,19 @@ class GrammarPlanner:
             PromptError: the sentence leaves open what is to be there.
         """
         sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
-        denied = tuple(_quoted(text, span) for span in denials)
+        sentence, manners = without_manners(sentence, self._nouns)
+        denied = tuple(quoted(text, span) for span in (*denials, *manners))
         try:
             told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
             return [replace(told[0], aside=(*denied, *told[0].aside)), *told[1:]]
         except UnreadError as error:
             failure = error
         for start, end in Tails(sentence, self._nouns, {}).around(failure.number):
-            kept = _without(sentence, [(start, end)])
+            kept = without(sentence, [(start, end)])
             negated = sentence[start].text == "," and sentence[start + 1].text == "not"
             if (negated or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
                 told = clauses(text, plainer(text, kept, self._nouns), self._nouns)
-                aside = (*denied, _quoted(text, sentence[start:end]), *told[0].aside)
+                aside = (*denied, quoted(text, sentence[start:end]), *told[0].aside)
                 return [replace(told[0], aside=aside), *told[1:]]
         raise failure
 
@@ -170,8 +175,8 @@ class GrammarPlanner:
         for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
             spans = find(clause.tokens)
             for start, end in spans:
-                world.note(f'not modelled: "{_quoted(text, clause.tokens[start:end]).strip(" ,")}"')
-            clause = replace(clause, tokens=_without(clause.tokens, spans))
+                world.note(f'not modelled: "{quoted(text, clause.tokens[start:end]).strip(" ,")}"')
+            clause = replace(clause, tokens=without(clause.tokens, spans))
         for aside in clause.aside:
             world.note(f'not modelled: "{aside}"')
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
@@ -184,11 +189,11 @@ class GrammarPlanner:
         spans = Remarks(clause.tokens, self._nouns).spans()[:REMARKS]
         for left_out in [[span] for span in spans] + ([spans] if len(spans) > 1 else []):
             lighter = _copied(world)
-            kept = _doing_nothing(clause.tokens, left_out)
+            kept = doing_nothing(clause.tokens, left_out)
             if not Remarks(kept, self._nouns).things():
                 continue
             for start, end in left_out:
-                lighter.note(f'not modelled: "{_quoted(text, clause.tokens[start:end])}"')
+                lighter.note(f'not modelled: "{quoted(text, clause.tokens[start:end])}"')
             try:
                 return self._told(text, replace(clause, tokens=kept), lighter, company)
             except UnreadError as error:
@@ -203,7 +208,7 @@ class GrammarPlanner:
             return self._read(text, spelled, world, company)
         if self._adds_nothing(clause, world, failure):
             done = ": no task does that." if clause.manner is not None else ""
-            world.note(f'not modelled: "{clause.said or _quoted(text, clause.tokens[:-1])}"{done}')
+            world.note(f'not modelled: "{clause.said or quoted(text, clause.tokens[:-1])}"{done}')
             return world, None
         tails = Tails(clause.tokens, self._nouns, _known(world))
         if told := self._without_one(text, clause, world, company, tails.loose(failure.number)):
@@ -221,7 +226,7 @@ class GrammarPlanner:
             said = ("next", "to") if verb.text.endswith("ing") else ("is", "next", "to")
             kept = [replace(verb, text=word) for word in said]
             nearer = _copied(world)
-            nearer.note(f'"{_quoted(text, clause.tokens[start:end])}" is read as "next to".')
+            nearer.note(f'"{quoted(text, clause.tokens[start:end])}" is read as "next to".')
             plain = replace(clause, tokens=(*clause.tokens[:start], *kept, *clause.tokens[end:]))
             try:
                 return self._told(text, plain, nearer, company)
@@ -247,7 +252,7 @@ class GrammarPlanner:
         """`world` with what `clause` says around what names nothing at its word at fault; None without."""
         tails = Tails(clause.tokens, self._nouns, _known(world))
         if world.groups and clause.manner is None and (tails.whole() or tails.depicts(_known(world))):
-            world.note(f'not modelled: "{_quoted(text, clause.tokens[:-1])}"')
+            world.note(f'not modelled: "{quoted(text, clause.tokens[:-1])}"')
             return world, None
         return self._without_one(text, clause, world, company, tails.around(failure.number))
 
@@ -261,8 +266,8 @@ class GrammarPlanner:
         further: list[tuple[Clause, World, int]] = []
         for start, end in spans:
             lighter = _copied(world)
-            lighter.note(f'not modelled: "{_quoted(text, clause.tokens[start:end])}"')
-            kept = replace(clause, tokens=_without(clause.tokens, [(start, end)]))
+            lighter.note(f'not modelled: "{quoted(text, clause.tokens[start:end])}"')
+            kept = replace(clause, tokens=without(clause.tokens, [(start, end)]))
             if not (world.groups or Remarks(kept.tokens, self._nouns).things()):
                 continue
             try:
@@ -372,26 +377,6 @@ class GrammarPlanner:
 
 def _supports(plan: ScenePlan) -> tuple[set[str], set[Relation]]:
     return {obj.name for obj in plan.objects}, {relation for relation in plan.relations if relation.supports}
-
-
-def _without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
-    return tuple(token for at, token in enumerate(tokens) if not any(start <= at < end for start, end in spans))
-
-
-def _doing_nothing(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
-    """`tokens` without `spans`; of "is playing with a cat" what is left is "and there is a cat": nothing has it."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        ends = next((start for start, end in spans if end == at and token.text == "with"), 0)
-        if ends and tokens[ends - 1].text in lexicon.COPULAS:
-            made[-1:] = [replace(token, text=word) for word in ("and", "there", "is")]
-        elif not any(start <= at < end for start, end in spans):
-            made.append(token)
-    return tuple(made)
-
-
-def _quoted(text: str, tokens: Sequence[Token]) -> str:
-    return text[tokens[0].start : tokens[-1].end].replace('"', "").strip(" ,")
 
 
 def _known(world: World) -> dict[str, str]:

@@ -1,11 +1,9 @@
 """How likely one thing stands in a relation to another: what has a cavity, a top, a rim; what is larger.
 
-The one place where attachment, senses and pronouns are decided: every reading is the sum of what its relations cost.
+The one place where attachment and pronouns are decided: every reading is the sum of what its relations cost.
 """
 
 from __future__ import annotations
-
-from collections.abc import Collection, Sequence
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.links import Link
@@ -167,9 +165,3 @@ class Plausible:
         if phrase.kind != "object":
             return ""
         return phrase.noun or (self._nouns.resolve(phrase.cycle[0]) or "" if phrase.cycle else "")
-
-
-def sense(said: str, company: Collection[str], senses: Sequence[tuple[str, str]]) -> str:
-    """Which of `senses` of the word `said` its company tells of; the first where none does."""
-    scored = [(len(set(company) & set(about.split())), -rank, noun) for rank, (noun, about) in enumerate(senses)]
-    return max(scored)[2] if scored else said

@@ -119,7 +119,8 @@ class Pronouns:
             # "Pick the bowl on the box and place it on the plate"
             if not steps[-1].items:
                 raise PromptError(
-                    f'"{phrase.words}" (word {phrase.number}) is what was picked up, which is no object of the scene. '
+                    f'"{steps[-1].said}" names no object of the scene, and so "{phrase.words}" (word '
+                    f"{phrase.number}) is none. "
                     "Name the thing itself."
                 )
             candidates.append((-1.2, list(steps[-1].items)))

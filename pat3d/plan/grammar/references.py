@@ -8,6 +8,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
 from pat3d.plan.grammar.contrast import Contrast
+from pat3d.plan.grammar.displaced import NEARNESS
 from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
@@ -28,6 +29,8 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
 from pat3d.scene.relations import SUPPORT_KINDS
 
+_APART = 0.7
+"""What it costs where only some of those of which "each" speaks are on a tray, or one of them is on "each"."""
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
 _COUNTED = {"first": 0, "second": 1, "third": 2, "fourth": 3, "fifth": 4, "last": -1}
@@ -138,7 +141,9 @@ class References(Contrast):
                     continue
                 if self._told_by_noun(phrase, group.phrase) or self._elsewhere(at, group):
                     continue
-                if same(group, phrase) and (found := self._chosen(group, phrase)):
+                if same(group, phrase) and (
+                    found := self._chosen(group, phrase, at if self._tells_place(at) else None)
+                ):
                     return found
         groups = [group for group in world.groups if group not in besides and not group.replaced]
         alike = [item for group in groups if same_noun(group, phrase)
@@ -186,7 +191,7 @@ class References(Contrast):
         named = [head for head in partners if head < at and self._chunks[head].phrase.kind in ("object", "unknown")]  # type: ignore[union-attr]
         return {item.group for head in named for item in self.known.get(head, ())}
 
-    def _chosen(self, group: Group, phrase: Phrase) -> list[Item]:
+    def _chosen(self, group: Group, phrase: Phrase, told: int | None = None) -> list[Item]:
         """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
         if self._told_otherwise(group, phrase):
             return []
@@ -214,7 +219,29 @@ class References(Contrast):
             items = self._told_by_size(items, phrase)
         if phrase.plural or len(items) == 1 or group.height > 1:
             return list(items)
-        return items[: phrase.count or 1] if wanted else list(items)
+        if wanted:
+            return items[: phrase.count or 1]
+        return self._singled(items, phrase, told)
+
+    def _singled(self, items: list[Item], phrase: Phrase, at: int | None) -> list[Item]:
+        """The one of several that "the cup to the left of the plate" means: one that was not singled out before.
+
+        It is told by the relation behind chunk `at`; where nothing tells it ("the cup") it is the one singled out last.
+        """
+        world, group = self._world, items[0].group
+        named = phrase.words.lower().startswith("the ") and phrase.count in (None, 1) and not phrase.each
+        matched = "same" in phrase.words.lower().split()
+        if not named or matched or not (group.phrase.plural and group.counted) or group.multiplied or group.cycle:
+            return items
+        before = [item for item in world.singled if item in items]
+        if at is None:
+            return before[-1:] or items[:1]
+        one = next((item for item in items if item not in before), items[-1])
+        world.singled.append(one)
+        if NEARNESS & {*(place := self._chunks[at + 1].text.lower()).split()}:
+            said = f"{phrase.words} {place} {self._chunks[at + 2].text}"
+            world.note(f'"{said}" is read as one of {len(group.items)}, next to it; how near the others are is open.')
+        return [one]
 
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
@@ -283,8 +310,15 @@ class References(Contrast):
             self.each.add(at)
             plural = self._plural_before(at)
             listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
-            if len(listed) > 1 and all(len(self.known[head]) > 1 for head in listed):
-                # "Two mugs and two bowls, each with a spoon"
+            several = [len(self.known[head]) > 1 for head in listed]
+            alike = (
+                any(several) and len(plural) == sum(several) and self._alike([self.known[head][0] for head in listed])
+            )
+            if len(listed) > 1 and (all(several) or alike):
+                # "Two mugs and two bowls, each with a spoon", "two red cups and a blue one, with a spoon in each"
+                apart = any(one & {*listed} and not {*listed} <= one for one, _ in self.related)
+                onto = any(one & {*listed} and at in other for one, other in self.related)
+                self.cost += _APART * (apart + onto)
                 return [item for head in listed for item in self.known[head]]
             subject = list(plural[0].items) if plural else self._before(at)
             return list(subject[0].group.items) if len(subject) == 1 else subject
@@ -337,6 +371,12 @@ class References(Contrast):
             return list(free[len(free) - count :])
         world.telling = whole.items[count:]
         return list(whole.items[:count])
+
+    def _alike(self, items: Sequence[Item]) -> bool:
+        """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
+        return len({item.group.noun for item in items}) == 1 or all(
+            self._world.is_a(item, lexicon.HOLLOW) for item in items
+        )
 
     def _another(self, at: int, phrase: Phrase) -> list[Item]:
         """The next of those that are told of one by one, or one more of what was named first in the sentence."""

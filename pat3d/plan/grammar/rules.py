@@ -13,9 +13,9 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chart import Node, Rule, parse
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.goals import Goals
 from pat3d.plan.grammar.judging import HEADLESS
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.listing import Listing
 from pat3d.plan.grammar.plausible import Plausible
 from pat3d.scene.relations import SUPPORT_KINDS
 
@@ -28,17 +28,7 @@ _HELD = 0.2
 """Cost of holding something below which it is usual."""
 
 
-def _list_cost(joints: str) -> float:
-    """How unusual it is to list with these joints: "," and "&" for "and", ";" for ", and"."""
-    closers = len(joints) - joints.count(",")
-    if not closers:
-        return 0.3 if joints else 0.0
-    early = sum(joint != "," for joint in joints[:-1])
-    cost = early * (0.35 if "," in joints else 0.05) + (0.3 if joints.endswith(",") else 0.0)
-    return cost + (0.15 if joints == ";" else 0.0)
-
-
-class Grammar(Goals):
+class Grammar(Listing):
     """The rules over the chunks of one sentence."""
 
     def __init__(self, chunks: Sequence[Chunk], likely: Plausible) -> None:
@@ -256,70 +246,7 @@ class Grammar(Goals):
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
 
-    # Lists
-
-    def _rest(self, joint: Node, named: Node) -> Node:
-        text = self._chunks[joint.start].text
-        mark = ":" if ":" in text else ";" if text == ", and" else "&" if text == "and" else ","
-        return Node("CL", joint.start, named.cost, named.heads, named.facts, mark + named.joints, named.flags)
-
-    def _list(self, first: Node, rest: Node) -> Node | None:
-        """Read "a mug" + ", a plate and a fork"."""
-        mark, later = rest.joints[0], rest.joints[1:]
-        facts = (*first.facts, *rest.facts)
-        cost = first.cost + rest.cost
-        if mark == ":":
-            if any(self._phrase(head).kind == "items" for head in first.heads):
-                facts = (*facts, *(("bind", head, rest.heads) for head in first.heads))
-                return Node("L", first.start, cost, rest.heads, facts, "", first.flags | rest.flags)
-            if all(self._phrase(head).kind in HEADLESS for head in rest.heads):
-                mute = any(self._says_nothing(head, rest.facts) for head in rest.heads)
-                flags = first.flags | {"colon"} | ({"mute"} if mute else set())
-                return Node("L", first.start, cost, first.heads, facts, "", flags)
-            if (kind := self._kind_named(first.start, rest.start)) is not None:
-                # "Tools on a bench: a hammer and a saw": the two are the tools.
-                heads = tuple(each for head in first.heads for each in (rest.heads if head == kind else (head,)))
-                return Node("L", first.start, cost - 0.3, heads, (*facts, ("bind", kind, rest.heads)), "", first.flags)
-            said = ("list", rest.start, first.heads, rest.heads)
-            extra = sum(
-                self._likely.having(Link(manner="with"), self._noun(first.heads[0]), self._noun(head))
-                for head in rest.heads
-            ) / len(rest.heads)
-            return Node("L", first.start, cost + extra, first.heads, (*facts, said), "", first.flags | {"colon"})
-        if first.joints and "modified" not in first.flags:
-            return None
-        cost += _list_cost(rest.joints) - _list_cost(later) + 0.3 * ("included" in first.flags)
-        coloured = any(self._phrase(head).modifiers.colours for head in first.heads)
-        headless = [
-            self._phrase(head).kind in HEADLESS and not (coloured and self._one_more(head)) for head in rest.heads
-        ]
-        if all(headless) and not all(self._phrase(head).kind in HEADLESS for head in first.heads):
-            # "two mugs, one on a plate": said of the mugs, nothing more is named.
-            mute = sum(self._says_nothing(head, rest.facts) for head in rest.heads)
-            flags = first.flags | (rest.flags & {"finite"}) | {"told"} | ({"mute"} if mute else set())
-            cost += 0.8 * mute
-            return Node("L", first.start, cost, first.heads, facts, "", flags)
-        if any(headless) and not all(headless):
-            cost += 0.4
-        if "formed" in rest.flags - first.flags and len(rest.heads) > 1:
-            # "a red cube, a blue cube and a green cube in a row": all three.
-            cost += 0.3
-        if "placed" in rest.flags and "placed" not in first.flags:
-            # "a mug and a plate on a table": what stands behind a list is said of all of it, or of its last.
-            cost += 0.3 if len(rest.heads) == 1 else 0.6
-        taken = [fact[2] for fact in rest.facts if fact[0] == "rel" and self._link(fact[1]).manner == "source"]
-        if rest.heads in taken and "placed" not in first.flags:
-            # "Put a bun and a sausage from the bowl onto a plate": both are taken out of it.
-            cost += 0.5
-        if "modified" in first.flags:
-            cost += 0.15 if "finite" not in first.flags else 0.3
-        if "finite" in rest.flags and "finite" not in first.flags:
-            cost += 0.4
-        if rest.joints == "&" and "finite" in first.flags - rest.flags and self._definite(rest.heads):
-            # "A ball is near the lamp and the clock": near both.
-            cost += 1.2
-        flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
-        return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+    # What something is said to be
 
     def _predicated(self, verb: Node, named: Node) -> Node:
         return replace(named, cat="VL", start=verb.start)

@@ -14,6 +14,7 @@ from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.remarks import MOVING, Remarks, Span
+from pat3d.plan.grammar.senses import PACKED
 from pat3d.plan.grammar.unmade import base_verb, is_quality, makes_nothing
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -335,7 +336,7 @@ def _is_told(word: str) -> bool:
     """Whether a table has `word`, or its ending tells that it names no thing."""
     forms = {word, *singulars(word)}
     tables = (lexicon.STACK_NOUNS, lexicon.ITEMS, lexicon.PIECES, lexicon.COLLECTIVES, lexicon.ROWS, lexicon.PORTIONS,
-              lexicon.SHAPES, lexicon.MEALS, lexicon.NUMBERS, lexicon.VAGUE, JOINERS, lexicon.PACKED)  # fmt: skip
+              lexicon.SHAPES, lexicon.MEALS, lexicon.NUMBERS, lexicon.VAGUE, JOINERS, PACKED)  # fmt: skip
     generic = {part for name in lexicon.GENERICS for part in name.split()}
     return (
         makes_nothing(word) or is_modifier(word) or bool(generic & forms) or any(forms & set(each) for each in tables)

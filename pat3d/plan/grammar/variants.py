@@ -9,12 +9,13 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
-from pat3d.plan.grammar.modifiers import is_marked, is_modifier
+from pat3d.plan.grammar.modifiers import is_colour_word, is_marked, is_modifier
 from pat3d.plan.grammar.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _STANDS = ("table", "stand", "base", "pedestal", "shelf", "tray", "plate", "support", "seat", "platform", "holder")
 _COLOURS = ("colors", "colours")
+_COLOUR = ("color", "colour", "hue")
 _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
     **{("all", "of", the): ("all", the) for the in ("the", "these", "those", "my", "your", "our", "his", "her")},
     ("near", "by"): ("nearby",),
@@ -44,6 +45,11 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
         for serving in ("serving", "acting", "used")
         for stand in _STANDS
     },
+    **{
+        ("so", "that", they, sit): ("so", "that", they, "are")
+        for they in ("they", "it")
+        for sit in ("sit", "sits", "stand", "stands", "lie", "lies", "rest", "rests")
+    },
     ("atleast",): ("at", "least"),
     ("atmost",): ("at", "most"),
     ("with", "no"): ("without",),
@@ -65,8 +71,12 @@ _RAINBOWS = tuple(
     for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
                  f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
 )  # fmt: skip
+_OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
 _SEERS = frozenset({"i", "we", "you", "one"})
+_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
+_IN_TURN = 12
+"""Things in a row that take turns, at most."""
 _MADE = frozenset({"made", "crafted", "built", "constructed", "carved", "formed", "fashioned"})
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _HALVES = frozenset({"half", "two", "three", "four", "pieces", "slices", "wedges", "quarters", "halves"})
@@ -76,7 +86,8 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    tokens = _compared(_rainbow(_plain(_unpictured(tokens)), nouns), nouns)
+    usual = _plain(_alike(_alternating(_hued(_unpictured(_begun(tokens)))), nouns))
+    tokens = _compared(_rainbow(usual, nouns), nouns)
     return _made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
 
 
@@ -94,6 +105,33 @@ def _unpictured(tokens: Sequence[Token]) -> Sequence[Token]:
     return tokens
 
 
+def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    words = [token.text for token in tokens]
+    opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
+
+
+def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "is red in color", "has a red color" as "is red", "of a red color" as "that is red"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 4]]
+        if words[:1] == ["in"] and words[1:2] and words[1] in _COLOUR and made and is_colour_word(made[-1].text):
+            at += 2
+            continue
+        whole = len(words) == 4 and words[1] == "a" and is_colour_word(words[2]) and words[3] in _COLOUR
+        if whole and words[0] in ("has", "have", "of", "with"):
+            joint = () if words[0] in ("has", "have") else (replace(tokens[at], text="that"),)
+            made += [*joint, replace(tokens[at], text="is"), replace(tokens[at + 2], end=tokens[at + 3].end)]
+            at += 4
+            continue
+        made.append(tokens[at])
+        at += 1
+    return made
+
+
 def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
     """`tokens` with "five blocks in the colors of the rainbow" as "five rainbow blocks"."""
     words = [token.text for token in tokens]
@@ -104,6 +142,40 @@ def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
             colour = replace(tokens[at], text="rainbow", end=tokens[at + size - 1].end)
             return [*tokens[: at - name], colour, *tokens[at - name : at], *tokens[at + size :]]
     return tokens
+
+
+def _alternating(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "four cups in a row, alternating red and blue" as "..., red, blue, red and blue"."""
+    words = [token.text for token in tokens]
+    at = next((n for n in range(4, len(words) - 3) if words[n] in _BY_TURNS), 0)
+    number = lexicon.NUMBERS.get(words[0], int(words[0]) if words[0].isdecimal() and len(words[0]) < 3 else 0)
+    one = at + 1 + (words[at + 1] == "between")
+    colours = [tokens[one], tokens[min(one + 2, len(words) - 1)]]
+    plain = is_colour_word(colours[0].text) and is_colour_word(colours[1].text) and words[one + 1] == "and"
+    counted = any(word in lexicon.NUMBERS or word.isdecimal() for word in words[1:at] if word not in ("a", "one"))
+    lined = {"row", "line"} & set(words[:at]) and not counted
+    if not (at and plain and lined and 2 < number <= _IN_TURN and len(words) == one + 4):
+        return tokens
+    comma = replace(tokens[at], text=",", mark=True)
+    made = [*tokens[:at], *([] if words[at - 1] == "," else [comma])]
+    for n in range(number):
+        last = n == number - 1
+        made += [] if n == 0 else [replace(tokens[one + 1], text="and")] if last else [comma]
+        made.append(colours[n % 2])
+    return [*made, tokens[-1]]
+
+
+def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "the plate is a blue plate" and "the plate is a blue one" as "the plate is blue"."""
+    words = [token.text for token in tokens]
+    verb = words.index("is") if "is" in words else 0
+    said = tokens[verb + 2 : -2]
+    one_colour = len(said) == 1 and is_colour_word(said[0].text)
+    if verb < 2 or words[0] != "the" or words[verb + 1] not in ("a", "an") or not one_colour:
+        return tokens
+    head = next(n for n in range(1, verb + 1) if n == verb or link_at(tokens, n)) - 1
+    same = nouns.match([words[head]]) is not None and words[-2] in (words[head], "one")
+    return [*tokens[: verb + 1], replace(said[0], end=tokens[-2].end), tokens[-1]] if same else tokens
 
 
 def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -165,6 +165,8 @@ class World:
         """Groups that the sentences before this one have named."""
         self.telling: list[Item] = []
         """Members of the group told of one by one that were not told of yet."""
+        self.singled: list[Item] = []
+        """Which of several "the cup to the left of the plate" meant, in the order of the prompt."""
 
     def items(self) -> list[Item]:
         """Every object, in the order of the prompt."""

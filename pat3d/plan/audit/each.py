@@ -1,0 +1,94 @@
+"""How many there are for each of several: "each", "every" and "either end" against the things of the plan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.text import Mention
+from pat3d.plan.audit.words import ARTICLES, CORNERS, EACH, ENDS, LEADING, NUMBERS, PRONOUNS
+
+_ASIDE = frozenset({"on", "to", "at", "the", "its", "their", "left", "right"})
+"""Words that say on which side of each something is."""
+_NEW_HEADS = PRONOUNS | NUMBERS.keys() | {":"}
+
+
+def for_each(it: Compared) -> Iterator[tuple[int, str]]:
+    """Things of which "each", "every" or "either end" wants several, and of which there are fewer."""
+    for at, word in enumerate(it.said.words):
+        if word not in EACH:
+            continue
+        place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
+        if {"but", "except", "save"} & set(it.said.words[at + 1 : at + 4]):
+            # "Every cup but one": of one less.
+            continue
+        before = [mention for mention in it.said.mentions if mention.end <= at]
+        behind = [mention for mention in it.said.mentions if mention.start > at]
+        if place in ENDS or place in CORNERS:
+            # "A bench with a plant at either end", but not "two lamps, one at either side"
+            wanted = 4 if place in CORNERS else 2
+            pair = it.said.words[before[-2].end : before[-1].first] == ["and"] if len(before) > 1 else False
+            told = (
+                before[-1:] if before and not pair and not _NEW_HEADS & set(it.said.words[before[-1].end : at]) else []
+            )
+            yield from _fewer(it, at, told, wanted, f"{word} {place}")
+            continue
+        if word == "either" or place == "other" or (it.said.words[at - 1] == "of" and not place[:1].isalnum()):
+            continue
+        own = [mention for mention in behind if place == "of" or mention.lead & {word} or mention.start <= at + 2]
+        if own:
+            # "a fork beside each plate", "each plate holds a bun"
+            owners, things = it.which(own[0])[: own[0].number], _led(it, own[0], at, before, behind[1:])
+        else:
+            plural = [mention for mention in before if mention.plural or (mention.number or 1) > 1]
+            led = next((claim for claim in it.said.claims if claim.end == at + 1), None)
+            told = [mention for mention in before if led is not None and mention.end == led.at and not mention.plural]
+            owners, things = (it.which(plural[-1]) if plural else []), told or _listed(it, behind)
+            for mention, last in reversed(list(pairwise(plural))):
+                if set(it.said.words[mention.end : last.first]) - {"and", ","} or owners == []:
+                    break
+                owners = [*owners, *it.which(mention)]
+        yield from _fewer(it, at, things, len(owners), word)
+
+
+def _led(it: Compared, own: Mention, at: int, before: Sequence[Mention], behind: Sequence[Mention]) -> list[Mention]:
+    """What there is one of for each of `own`: named before "beside each plate", behind "each plate holds"."""
+    claim = next((claim for claim in it.said.claims if claim.of is own or claim.end == at + 1), None)
+    if claim is None:
+        return _listed(it, behind)
+    if claim.at < at and not before:
+        # "Beside each bed is a nightstand with a lamp on it"
+        stop = next(
+            (n for n in range(at, len(it.said.words)) if it.said.words[n] in (",", ";", ".")), len(it.said.words)
+        )
+        return [mention for mention in behind if mention.new and mention.end <= stop]
+    near = [mention for mention in before if set(it.said.words[mention.end : claim.at]) <= LEADING][-1:]
+    for mention in reversed(before[:-1]):
+        # "a fork to the left and a knife to the right of each"
+        between = set(it.said.words[mention.end : near[0].start]) if near else set()
+        if not {"left", "right"} & between or between - {"to", "on", "the", "left", "right", "and"} - ARTICLES:
+            break
+        near.insert(0, mention)
+    return near if claim.at < at else []
+
+
+def _listed(it: Compared, behind: Sequence[Mention]) -> list[Mention]:
+    """The first of `behind`, and what "and" joins to it."""
+    made = list(behind[:1])
+    for mention in behind[1:]:
+        between = set(it.said.words[made[-1].end : mention.start]) - _ASIDE
+        if "and" not in between or len(between) > 2 + len(mention.lead) or not mention.new:
+            break
+        made.append(mention)
+    return made
+
+
+def _fewer(it: Compared, at: int, things: Sequence[Mention], wanted: int, said: str) -> Iterator[tuple[int, str]]:
+    for thing in things:
+        there = len(it.which(thing))
+        if said.split()[-1] in ENDS and 1 < there == thing.number:
+            # "two plants on either side of the door"
+            continue
+        if thing.new and 0 < there < wanted * (thing.number or 1) and not it.named(thing.text):
+            yield at, f'not as said: "{said}" wants {wanted * (thing.number or 1)} of "{thing.text}"; there are {there}'

@@ -1,0 +1,103 @@
+"""What several have evenly between them, as how many each has: "six apples divided equally between two bowls"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.number_words import counted_before, number_of
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
+_EVENLY = frozenset({"equally", "evenly"})
+
+
+def shared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "six apples divided equally between two bowls" as "three apples in each of two bowls"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 3):
+        if words[at] not in _DIVIDED:
+            continue
+        first = at - (words[at - 1] in _EVENLY)
+        between = at + 1 + (words[at + 1] in _EVENLY)
+        evenly = between > at + 1 or first < at
+        among = words[between : between + 1] in (["between"], ["among"], ["over"], ["across"])
+        number = between + 1 + (words[between + 1] == "the")
+        holders = number_of(words[number]) if number < len(words) else 0
+        start = next((n for n in range(first - 1, -1, -1) if number_of(words[n])), None)
+        if not (evenly and among and holders and start is not None) or number_of(words[start]) % holders:
+            continue
+        name = next((n for n in (3, 2, 1) if nouns.match(words[start + 1 : start + 1 + n])), 0)
+        if not name:
+            continue
+        share = number_of(words[start]) // holders
+        told = [replace(tokens[between], text=text) for text in ("in", "each", "of")]
+        amount = replace(tokens[start], text="one" if share == 1 else str(share))
+        return [*tokens[:start], amount, *tokens[start + 1 : start + 1 + name], *told, *tokens[number:]]
+    return list(tokens)
+
+
+def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "six apples, two in each of three bowls" as "two apples in each of three bowls".
+
+    Where the shares do not make up the whole they are left as they are: the audit compares them with the plan.
+    """
+    words = [token.text for token in tokens]
+    for each in range(4, len(words) - 2):
+        share = each - next((n for n in (3, 2, 1) if link_at(tokens, each - n) == n), each) - 1
+        share -= 2 * (words[share - 1 : share + 1] in (["of", "them"], ["of", "these"], ["of", "which"]))
+        if words[each] != "each" or share < 3:
+            continue
+        end = share - (words[share - 1] in ("with", "namely"))
+        end -= tokens[end - 1].mark
+        start = next((n for n in range(end - 1, -1, -1) if number_of(words[n])), None)
+        if start is None or end == share:
+            continue
+        first = start + 1
+        while first < end - 1 and is_modifier(words[first]) and not nouns.match(words[first:end]):
+            first += 1
+        amount = 1 if words[share] == "one" else number_of(words[share])
+        if nouns.match(words[first:end]) and amount * _carriers(tokens, each) == number_of(words[start]):
+            behind = share + (3 if words[share + 1] == "of" else 1)
+            return [*tokens[:start], replace(tokens[start], text=words[share]), *tokens[start + 1 : end],
+                    *tokens[behind:]]  # fmt: skip
+    return list(tokens)
+
+
+def without_shares(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` without ", two in each" behind "six apples are in three bowls": they are shared out evenly anyway."""
+    words = [token.text for token in tokens]
+    for each in (at for at in range(6, len(words) - 1) if words[at] == "each"):
+        tail = next((n for n in range(each - 1, each - 6, -1) if tokens[n].mark), each)
+        start = max((n + 1 for n in range(tail) if words[n] == "."), default=0)
+        counted = [n for n in range(start, tail) if number_of(words[n])]
+        share = tail + 1 + (words[tail + 1] == "with")
+        if len(counted) != 2 or words[tail] != "," or "and" in words[slice(*counted)]:
+            continue
+        amount = 1 if words[share] == "one" else number_of(words[share])
+        few, many = sorted(number_of(words[n]) for n in counted)
+        end = each + 1
+        while (
+            end < each + 4
+            and not tokens[end].mark
+            and {words[end], f"{words[end]}s"} & {"of", "them", *words[start:tail]}
+        ):
+            end += 1
+        placed = share + 1 == each or link_at(tokens, share + 1) == each - share - 1
+        if amount * few == many and placed and tokens[end].mark:
+            return [*tokens[:tail], *tokens[end:]]
+    return list(tokens)
+
+
+def _carriers(tokens: Sequence[Token], each: int) -> int:
+    """How many there are of what "each" at token `each` is said of: "each of three bowls", "each bowl"."""
+    words = [token.text for token in tokens]
+    after = each + 1 + (words[each + 1] == "of") + ("the" in words[each + 1 : each + 3])
+    named = words[min(after, len(words) - 1)]
+    if words[each + 1] == "of":
+        return number_of(named) or counted_before(tokens, each, named)
+    several = [token.text for token in tokens[:each] if named in singulars(token.text)]
+    return counted_before(tokens, each, several[-1]) if several else 0

@@ -1,0 +1,72 @@
+"""Talk before the scene or the request begins: "I'm hosting a party. Put the rose in the vase." is the second alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.unmade import is_quality, makes_nothing
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_SPEAKERS = frozenset({"i", "we", "i'm", "we're", "i've", "we've"})
+_PEOPLE = frozenset({"friend", "friends", "guest", "guests", "mother", "father", "mom", "dad", "wife", "husband",
+    "family", "parents", "sister", "brother", "boss", "colleague", "colleagues", "neighbor", "neighbour", "roommate",
+    "son", "daughter"})  # fmt: skip
+_BEING = frozenset({"am", "are", "is", "'s", "'re", "i'm", "we're", "feel", "feeling", "was", "were"})
+_WITHOUT_ARTICLE = frozenset({"having", "drinking", "eating", "serving", "making"})
+_TIMES = frozenset({"today", "tomorrow", "tonight", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday",
+    "sunday", "exam", "interview"})  # fmt: skip
+_REFERRING = lexicon.PRONOUNS | {"one", "ones", "this", "that", "these", "those"}
+
+
+def without_talk(told: Sequence[list[Token]], nouns: Nouns) -> tuple[list[list[Token]], list[tuple[Token, Token]]]:
+    """The sentences `told` without those before the first that names a thing, and the ends of each left out."""
+    talk: list[tuple[Token, Token]] = []
+    for sentence, follower in zip(told, told[1:], strict=False):
+        if not (_is_talk(sentence, nouns) and _names_something(follower, nouns)):
+            break
+        talk.append((sentence[0], sentence[-2]))
+    return list(told[len(talk) :]), talk
+
+
+def _is_talk(sentence: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `sentence` tells of who speaks, or of someone of theirs, and names nothing that could be there."""
+    words = [token.text for token in sentence]
+    spoken = words[0] in _SPEAKERS or (words[0] in ("my", "our") and words[1] in _PEOPLE)
+    return len(words) > 2 and spoken and all(_is_said(sentence, at, nouns) for at in range(1, len(words) - 1))
+
+
+def _is_said(sentence: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether the word at `at` is no thing: "party", the "garden" of "garden party", the "thirsty" of "I'm thirsty"."""
+    word, before, after = sentence[at].text, sentence[at - 1].text, sentence[at + 1]
+    if sentence[at].mark or word in _PEOPLE | _TIMES:
+        return True
+    if word in lexicon.NUMBERS and word not in ("a", "an", "one"):
+        return False
+    ends = after.mark or after.text in FINITE or after.text in ("and", "or") or link_at(sentence, at + 1) > 0
+    about = sentence[at - 2].text if at > 1 else ""
+    if before in ("on", "about", "for", "with") and is_quality(about) and nouns.match([word]) is None:
+        # "a presentation on Lincoln"
+        return word not in lexicon.DETERMINERS | lexicon.NUMBERS.keys() or not ends
+    if before in _BEING and ends:
+        return nouns.match([word]) is None
+    if ends or after.text in _TIMES:
+        thing = nouns.match([word]) is not None and not is_quality(word)
+        return before in _WITHOUT_ARTICLE if thing else makes_nothing(word)
+    # What goes before another noun describes it.
+    return True
+
+
+def _names_something(sentence: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `sentence` names a thing before it refers to one."""
+    words = [token.text for token in sentence]
+    # "It is on a tray", "give them to me"; "could you give me the cup" refers to nobody but who speaks.
+    for word in words:
+        if word in _REFERRING - lexicon.VIEWERS:
+            return False
+        if nouns.match([word]) is not None and not is_quality(word):
+            return True
+    return False
