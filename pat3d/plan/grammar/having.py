@@ -98,7 +98,8 @@ class Having(Judging):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
             cost += 0.8
         first, last = min(left, default=0), max(left, default=0)
-        amid = [fact for fact in lateral if first <= fact[2][0] < fact[3][-1] < last and not self._definite(fact[3])]
+        amid = [fact for fact in lateral if fact[2] and fact[3]]
+        amid = [fact for fact in amid if first <= fact[2][0] < fact[3][-1] < last and not self._definite(fact[3])]
         if self._likely.hollow(owner) and any(self._link(fact[1]).manner == "place" for fact in amid):
             # "A basket of lemons next to a jug and a glass": the glass is not in it.
             cost += 0.8

@@ -65,7 +65,7 @@ class Judging:
         related += [(fact[2], fact[3]) for fact in named.facts if fact[0] == "have"]
         related += [(fact[3], fact[2]) for fact in named.facts if fact[0] == "place"]
         its = {fact[1]: fact[2] for fact in named.facts if fact[0] == "bind"}
-        related += [(its[fact[3][0]], fact[2]) for fact in named.facts if fact[0] == "rel" and fact[3][0] in its]
+        related += [(its[at], fact[2]) for fact in named.facts if fact[0] == "rel" for at in fact[3][:1] if at in its]
         return any(
             set(those) & set(named.heads) and any(_same(self._phrase(head), phrase) for head in by)
             for those, by in related
