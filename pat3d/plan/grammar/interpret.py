@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.errors import PromptError
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.account import holds_already, learned, miscounted, words_left
+from pat3d.plan.grammar.account import miscounted, words_left
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.contradictions import refuse_goal, refuse_own
+from pat3d.plan.grammar.contradictions import refuse_own
 from pat3d.plan.grammar.distribution import all_like, as_many, for_each, hand_out, share
-from pat3d.plan.grammar.instructions import SHUTTING, Clause
+from pat3d.plan.grammar.doing import Doing
+from pat3d.plan.grammar.instructions import Clause
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import Maker, describe, multiply, recount, tell, tell_colours
-from pat3d.plan.grammar.placing import Placing
-from pat3d.plan.grammar.world import Item, Step, World
+from pat3d.plan.grammar.world import Item, World
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _UNHEARD = 0.8
@@ -34,18 +33,13 @@ _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
 
-class Interpreter(Placing):
+class Interpreter(Doing):
     """Adds one reading of a sentence to a world."""
 
     def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, clause: Clause) -> None:
-        super().__init__(world, chunks, maker)
-        self._clause = clause
+        super().__init__(world, chunks, maker, clause)
         self._sides: dict[int, str] = {}
         """On which side of what they flank things are, by chunk."""
-        self._handled: set[int] = set()
-        """Phrases for everything that were put somewhere."""
-        self._from: list[Item] = []
-        """What everything that is moved is on before."""
 
     def add(self, reading: Node) -> float:
         """Add `reading`; what its references cost.
@@ -127,24 +121,6 @@ class Interpreter(Placing):
         self._account(facts)
         return self._relating.cost + self._said.cost
 
-    def _note_goal(self, facts: Sequence[tuple]) -> None:
-        """Say that "on the tray to the left of the bowl" is read as the tray's place, not the goal's."""
-        goals = {head for fact in facts if fact[0] == "goal" and self._chunks[fact[1]].relation.kind == "on"
-                 for head in fact[3]}  # fmt: skip
-        for fact in facts:
-            link = self._chunks[fact[1]].link if fact[0] == "rel" else None
-            aside = link is not None and link.manner == "place" and link.kind in LATERAL_SIDES.values()
-            if aside and set(fact[2]) <= goals and not any(map(self._world.on_floor, self._said.ref_all(fact[3]))):
-                of, place = (" ".join(self._chunks[at].text for at in ats) for ats in (fact[2], (fact[1], *fact[3])))
-                self._world.note(f'"{place}" is read as said of "{of}", not of where on it.')
-
-    def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
-        """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
-        links = [self._chunks[fact[1]].link for fact in facts if fact[0] == "goal"]
-        return all(
-            link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
-        )
-
     def _told_of(self, heads: Sequence[int]) -> list[Item]:
         """All that the sentence tells of; where that is one thing, also what the sentences before tell of."""
         world = self._world
@@ -154,37 +130,6 @@ class Interpreter(Placing):
             return told
         below = {below for item in (*world.together, *told) for below in world.ancestors(item)}
         return [*(item for item in world.together if item not in (*told, *below)), *told]
-
-    def _form(self, at: int, heads: Sequence[int]) -> None:
-        """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
-        phrases = [self._chunks[head].phrase for head in heads]
-        meant = all(phrase is not None and (phrase.definite or phrase.kind == "pronoun") for phrase in phrases)
-        if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
-            return
-        if self._clause.manner is not None and meant:
-            self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
-        else:
-            self._formed(at, heads)
-
-    def _effect(
-        self, hear: Callable[[int, Sequence[int], Sequence[int]], None], at: int, one: Sequence[int], two: Sequence[int]
-    ) -> None:
-        """Let chunk `at` have its effect through `hear`; a note names it where it has none."""
-        before = learned(self._world)
-        hear(at, one, two)
-        if learned(self._world) != before or holds_already(
-            self._world, self._said.ref_all(one), self._said.ref_all(two)
-        ):
-            return
-        heads = [head for head in (*one, *two) if self._chunks[head].phrase is not None]
-        kinds = {self._chunks[head].phrase.kind for head in heads}  # type: ignore[union-attr]
-        link = self._chunks[at].link
-        told = link is not None and link.manner not in ("include", "gaze", "goal")
-        said = " ".join(f'"{self._chunks[head].text}"' for head in two)
-        if told and kinds <= {"object", "unknown", "pieces", "pronoun", "part"}:
-            self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
-        elif link is not None and link.says:
-            self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
 
     def _account(self, facts: Sequence[tuple]) -> None:
         """Name every word of the sentence that had no effect."""
@@ -224,97 +169,6 @@ class Interpreter(Placing):
                 self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
                 self._world.note(f'not understood: "{word}" of "{chunk.text}"')
-
-    def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
-        """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
-        link = self._chunks[at].relation
-        before, parents = self._world.subject, self._said.refs_of(parent_heads, link, child_heads)
-        children = self._said.refs_of(child_heads, link, parent_heads, child=True)
-        children = children or self._everything(child_heads, parents)
-        if not parent_heads:
-            parents = [item for item in before if item not in children]
-            if link.kind == "in" and children and parents:
-                # "Take the lid off the pot and put an egg inside": inside the pot.
-                parents = self._that_holds(children[0], parents)
-        phrases = [self._chunks[head].phrase for head in child_heads]
-        taken = any(chunk.link is not None and chunk.link.manner == "source" for chunk in self._chunks)
-        made_up = (
-            self._clause.manner in ("make", "stack")
-            and not taken
-            and not self._clause.then
-            and not any(item.group in self._said.before for item in children)
-            and all(
-                phrase is not None
-                and phrase.determined
-                and not phrase.definite
-                and (phrase.kind in ("object", "unknown") or phrase.words.lower().startswith(("a ", "an ")))
-                and not phrase.superlative.size_word
-                for phrase in phrases
-            )
-        )
-        if made_up:
-            if self._clause.manner == "stack" and len(children) > 1:
-                self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
-            if children and parents:
-                if self._said.speaks_of_each(parent_heads):
-                    children = multiply(self._world, children, len(parents))
-                if self._clause.verb == "hang" and link.kind == "on":
-                    link = Link(kind="hangs_from")
-                if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
-                    link = Link(kind="next_to", says="leaning_against")
-                self._relating.relate(children, link, parents)
-                self._world.note(
-                    f'"{self._clause.said}" is read as the scene to make; with "the" before what is moved it is a task.'
-                )
-            return
-        moved, goal = (" ".join(self._chunks[head].text for head in heads) for heads in (child_heads, parent_heads))
-        refuse_goal(self._clause.said, children, parents, moved, goal)
-        for head in parent_heads:
-            self._note_part(head)
-        self._said.not_understood((*child_heads, *parent_heads))
-        if self._clause.verb == "hang" and link.kind == "on":
-            link = Link(kind="hangs_from")
-        if link.manner == "half" and link.side != "centre":
-            self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
-        ends = any(phrase.part in _ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
-        level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
-        if self._clause.verb in _SLIDING and level and (ends or link.says == "across"):
-            # "Slide the plate to the edge of the table": it is on the table.
-            children = [item for item in children if not self._world.on_floor(item)]
-            if children and all(self._world.support(item) is None for item in children):
-                self._relating.relate(children, Link(kind="on"), parents[:1])
-            self._clause = replace(self._clause, manner="other")
-        self._step(children, link, parents)
-
-    def _done(self, heads: Sequence[int]) -> None:
-        children = self._said.refs_of(heads)
-        if self._clause.verb in SHUTTING and [self._chunks[head].text.lower() for head in heads] == ["it"]:
-            # "Get the spoon from the drawer and close it": the drawer.
-            likely, world = self._world.likely, self._world
-            below = [world.support(item) for item in children]
-            children = [item for item in below if item is not None and likely.closet(world.noun(item))] or children
-        out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
-        if out and children and all(self._world.support(item) is None for item in children):
-            named = f'"{children[0].group.words}"'
-            self._world.note(f'not modelled: "{self._clause.said}": what {named} is taken out of is not said with it.')
-        self._said.not_understood(heads)
-        phrases = [self._chunks[head].phrase for head in heads]
-        made_up = all(phrase is not None and phrase.determined and not phrase.definite for phrase in phrases)
-        if self._clause.manner == "stack" and made_up:
-            self._stacked(list(dict.fromkeys(item.group for item in children)), tall=True)
-        elif self._clause.manner != "make" or not made_up:
-            self._step(children, None, [])
-
-    def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
-        manner = self._clause.manner
-        if manner is None:
-            raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
-        if manner == "pick" and len(children) == 1 and children[0].group.multiplied:
-            # "Take one apple from each of two bowls"
-            children = list(children[0].group.items)
-        self._world.steps.append(
-            Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
-        )
 
     def _qualified(self, heads: Sequence[int], told: Modifiers) -> None:
         items = [item for head in heads for item in self._said.ref(head)]
@@ -456,53 +310,6 @@ class Interpreter(Placing):
         link = self._chunks[fact[1]].relation if doing and fact[0] == "have" else None
         things = all(self._chunks[head].named.kind == "object" for head in fact[3]) if link is not None else False
         return link is not None and link.manner == "with" and link.kind is None and things
-
-    def _is_items(self, heads: Sequence[int]) -> bool:
-        """Whether one of `heads` is "everything" or "the things"."""
-        phrases = (self._chunks[head].phrase for head in heads)
-        return any(phrase is not None and phrase.kind == "items" for phrase in phrases)
-
-    def _everything(self, heads: Sequence[int], goal: list[Item]) -> list[Item]:
-        """What "everything" at `heads` is that is moved to `goal`: all that is there, or is on what is said with it."""
-        world = self._world
-        said = [self._chunks[head].named for head in heads]
-        every = all(phrase.words.lower().startswith(("everything", "all")) for phrase in said)
-        plain = every and all(phrase.modifiers == NO_MODIFIERS for phrase in said)
-        if not plain or not self._is_items(heads) or self._said.ref_all(heads):
-            return []
-        meant = [item for item in world.items() if item not in goal and not world.on_floor(item)]
-        if self._from:
-            meant = [item for item in meant if world.support(item) in self._from]
-        meant = [item for item in meant if world.support(item) not in meant]
-        if meant:
-            self._handled |= set(heads)
-            self._said.known.update(dict.fromkeys(heads, meant))
-        return meant
-
-    def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
-        """Read "Everything is on a table": all that is not yet carried."""
-        world = self._world
-        if not self._is_items(heads):
-            return False
-        if self._clause.manner is not None:
-            # "Move everything on the table": what was there before.
-            self._from += parents
-            return any(world.support(item) in parents for item in world.items())
-        free = [item for item in world.items() if world.support(item) is None and item not in parents]
-        free = [item for item in free if not world.on_floor(item)]
-        if free:
-            self._handled |= set(heads)
-            self._relating.relate(free, link, parents)
-        return bool(free)
-
-    def _note_part(self, head: int) -> None:
-        phrase = self._chunks[head].phrase
-        if (
-            phrase is not None
-            and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
-            and phrase.kind == "object"
-        ):
-            self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         self._have(self._chunks[at].relation, owner_heads, child_heads)

@@ -7,27 +7,22 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.chunks import Chunk
-from pat3d.plan.grammar.contrast import Contrast
-from pat3d.plan.grammar.displaced import NEARNESS
 from pat3d.plan.grammar.distribution import says_all
 from pat3d.plan.grammar.lexing import singulars
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.matching import (
     ALONG,
-    OPPOSITE,
-    PLACES,
-    SAME,
     colours_of,
     line_up,
     position,
     same_head,
     same_noun,
 )
+from pat3d.plan.grammar.members import Members
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
-from pat3d.plan.grammar.objects import forget_count, tell, tell_colours
+from pat3d.plan.grammar.objects import forget_count
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import Group, Item
-from pat3d.scene.relations import SUPPORT_KINDS
 
 _APART = 0.7
 """What it costs where only some of those of which "each" speaks are on a tray, or one of them is on "each"."""
@@ -43,7 +38,7 @@ def _told_apart(group: Group) -> bool:
     return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
 
 
-class References(Contrast):
+class References(Members):
     """Resolves the phrases of one sentence."""
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
@@ -159,18 +154,6 @@ class References(Contrast):
             return storage[-1:] or None
         return None
 
-    def _rest_of(self, phrase: Phrase) -> list[Item]:
-        """The other cups of which one or some were told apart: "one of three cups ..., the other two cups"."""
-        for group in (group for group in reversed(self._world.groups) if same_noun(group, phrase)):
-            untold = [item for item in self._world.telling if item in group.items]
-            if group.phrase.some == 1:
-                untold = group.items[1:]
-            elif group.phrase.superlative != NO_MODIFIERS:
-                untold = [item for item in group.items if not (item.place or item.told.size_word)]
-            if untold and len(untold) < len(group.items) and len(untold) >= (phrase.count or 1):
-                return untold[: phrase.count or (None if phrase.plural else 1)]
-        return []
-
     def _note_more(self, group: Group) -> None:
         """Say that "the other two cups" are further ones where none of the three before was told from the rest."""
         likes = [one for one in self._world.groups if one.noun == group.noun and one.exact and one is not group]
@@ -185,297 +168,11 @@ class References(Contrast):
         kept = tuple(word for word in words.adjectives if word not in lexicon.LEVELS)
         self._maker.note_adjectives(self._world, phrase, replace(words, adjectives=kept))
 
-    def _besides(self, at: int) -> set[Group]:
-        """Groups that other phrases name, to which chunk `at` is related."""
-        partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}
-        named = [head for head in partners if head < at and self._chunks[head].phrase.kind in ("object", "unknown")]  # type: ignore[union-attr]
-        return {item.group for head in named for item in self.known.get(head, ())}
-
-    def _chosen(self, group: Group, phrase: Phrase, told: int | None = None) -> list[Item]:
-        """The members of `group` that `phrase` speaks of; none where it cannot be meant."""
-        if self._told_otherwise(group, phrase):
-            return []
-        items, where = group.items, position(phrase)
-        wanted = phrase.modifiers.colours
-        if wanted:
-            own = [item for item in items if colours_of(item) and wanted[0] in colours_of(item)]
-            blank = [item for item in items if not colours_of(item)]
-            items = own or (blank if len(items) == len(blank) else [])
-        if phrase.count is not None and phrase.count > len(items):
-            return []
-        placed = [item for item in items if item.place == where] if where else []
-        if placed:
-            return placed
-        if where and any(item.place for item in items):
-            if len(items) == 1:
-                return []
-            items = [item for item in items if not item.place]
-        if where and len(items) > 1 and not phrase.plural and (group.height > 1 or where not in lexicon.LEVELS):
-            return self._at(items, where, phrase)
-        size = phrase.modifiers.size_word
-        if size and group.modifiers.size_word and size != group.modifiers.size_word:
-            return []
-        if phrase.definite and not phrase.plural and len(items) > 1 and group.height == 1:
-            items = self._told_by_size(items, phrase)
-        if phrase.plural or len(items) == 1 or group.height > 1:
-            return list(items)
-        if wanted:
-            return items[: phrase.count or 1]
-        return self._singled(items, phrase, told)
-
-    def _singled(self, items: list[Item], phrase: Phrase, at: int | None) -> list[Item]:
-        """The one of several that "the cup to the left of the plate" means: one that was not singled out before.
-
-        It is told by the relation behind chunk `at`; where nothing tells it ("the cup") it is the one singled out last.
-        """
-        world, group = self._world, items[0].group
-        named = phrase.words.lower().startswith("the ") and phrase.count in (None, 1) and not phrase.each
-        before = [item for item in world.singled if item in items]
-        # "the container of the same color": one in turn
-        matched = at is None and not before and len({colours_of(item) for item in items}) > 1
-        if not named or matched or not (group.phrase.plural and group.counted) or group.multiplied or group.cycle:
-            return items
-        if at is None:
-            return before[-1:] or items[:1]
-        one = next((item for item in items if item not in before), items[-1])
-        world.singled.append(one)
-        if NEARNESS & {*(place := self._chunks[at + 1].text.lower()).split()}:
-            said = f"{phrase.words} {place} {self._chunks[at + 2].text}"
-            world.note(f'"{said}" is read as one of {len(group.items)}, next to it; how near the others are is open.')
-        return [one]
-
-    def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
-        index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
-        if not -len(items) <= index < len(items):
-            self._world.note(f'"{phrase.words}": there are only {len(items)}.')
-            return items[-1:]
-        item = items[index]
-        item.place = where
-        tell(item, phrase.modifiers)
-        if not item.group.rows and item.group.height == 1:
-            line_up(self._world, item)
-        return [item]
-
-    def _members(self, at: int, phrase: Phrase) -> list[Item]:
-        """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""
-        world = self._world
-        if phrase.said == "stack":
-            towers = [group for group in world.groups if group.height > 1]
-            return list(towers[-1].items) if towers and phrase.definite else []
-        words, where = phrase.modifiers, position(phrase)
-        groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
-        groups += [group for group in reversed(world.groups) if not group.replaced]
-        if phrase.words.lower() == "that one":
-            single = [
-                items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
-            ]
-            return single[0] if single else []
-        together = words == NO_MODIFIERS and not any(head < at for head in self.known)
-        if together and phrase.definite and phrase.count == len(world.together) > 1:
-            # "A cup and a jar are on the desk. Put both in the box."
-            return list(world.together)
-        counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
-        if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
-            # "The book on the chair is red, the one on the desk is blue": another book.
-            return self._one_like(subject, phrase)
-        if where or (not words.colours and (words.size_word or phrase.head == "one")):
-            besides = self._besides(at)
-            # "the smaller of two boxes inside the larger one"
-            pairs = {group for group in besides if words.size_word and len(group.items) > 1}
-            groups = [group for group in groups if group not in besides or group in pairs]
-        rest = phrase.head in _REST or (phrase.other and phrase.definite)
-        if phrase.head in _ENUMERATED:
-            told = self._earlier or [group for group in world.groups if group.items]
-            # "A mug and a jar are on a shelf": of the two, not of what they are on.
-            below = {below.group for group in told for item in group.items for below in world.ancestors(item)}
-            told = [group for group in told if group not in below] or told
-            told = told[-2:] if self._earlier else told[:2]
-            return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
-        listed = self._enumerated(at) if where in _COUNTED and phrase.words.lower() == f"the {where}" else []
-        if listed and len({item.group for item in listed}) == len(listed):
-            # "A cup and a bowl: the first is red, the second holds an egg."
-            found = listed[_COUNTED[where] : _COUNTED[where] + 1] if where != "last" else listed[-1:]
-            for item in found:
-                tell(item, replace(words, adjectives=()))
-            return found
-        if phrase.head in ("both", "all"):
-            self.all.add(at)
-            return self._before(at)
-        if phrase.words.lower().startswith("both ") and (pair := self._listed_before(at)):
-            # "A mug and a cup, both red"
-            self.all.add(at)
-            for item in pair:
-                tell(item, words)
-            return pair
-        if phrase.head == "each":
-            self.each.add(at)
-            plural = self._plural_before(at)
-            listed = [head for heads in self.clauses.values() for head in heads if head < at and self.known.get(head)]
-            several = [len(self.known[head]) > 1 for head in listed]
-            alike = (
-                any(several) and len(plural) == sum(several) and self._alike([self.known[head][0] for head in listed])
-            )
-            if len(listed) > 1 and (all(several) or alike):
-                # "Two mugs and two bowls, each with a spoon", "two red cups and a blue one, with a spoon in each"
-                apart = any(one & {*listed} and not {*listed} <= one for one, _ in self.related)
-                onto = any(one & {*listed} and at in other for one, other in self.related)
-                self.cost += _APART * (apart + onto)
-                return [item for head in listed for item in self.known[head]]
-            subject = list(plural[0].items) if plural else self._before(at)
-            return list(subject[0].group.items) if len(subject) == 1 else subject
-        if rest:
-            # "One of the bowls holds keys and the other one holds nuts": of the bowls.
-            groups.sort(key=lambda group: not group.phrase.some)
-        if rest and world.telling:
-            told = world.telling[: phrase.count or len(world.telling)]
-            world.telling = world.telling[len(told) :]
-            return told
-        count = phrase.count or 1
-        if where:
-            # "On the first are three cups, on the second ...": of the same kind as before.
-            groups.sort(key=lambda group: not any(item.place for item in group.items))
-        if where in lexicon.LEVELS:
-            # What is stacked is often said after it is named.
-            several = [group for group in groups if len(group.items) > 1]
-            tower = next((group for group in several if group.height > 1), next(iter(several), None))
-            return self._at(tower.items, where, phrase) if tower is not None else []
-        if where in ("left", "right") and "one" in phrase.words.lower().split():
-            # "The left tray carries three muffins, the right one a knife": another tray.
-            beside = [group for group in groups if len(group.items) == 1 and group.items[0].place == OPPOSITE[where]]
-            if beside:
-                return self._one_like(beside[0].items, phrase)
-        if (like := self._partner(at, phrase)) is not None:
-            return self._one_like(like, phrase)
-        if where and words.colours:
-            # "Four cans in a line, the second one blue"
-            line = next((group for group in groups if len(group.items) > 1 and group.height == 1), None)
-            if line is not None and not any(words.colours[0] in colours_of(item) for item in line.items):
-                return self._at(line.items, where, phrase)
-        compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
-        if words.colours or words.palette or words.size_word or compared:
-            return self._described(phrase, groups, count)
-        if world.telling and len(world.telling) >= count and not where:
-            told, world.telling = world.telling[:count], world.telling[count:]
-            return told
-        whole = next((group for group in groups if len(group.items) > count and group.height == 1), None)
-        if whole is None:
-            whole = next((group for group in groups if len(group.items) >= count), None)
-            tall = next((group for group in groups if where and len(group.items) > count), None)
-            if tall is not None:
-                return self._at(tall.items, where, phrase)
-            return list(whole.items[:count]) if whole is not None else []
-        if where:
-            return self._at(whole.items, where, phrase)
-        if rest:
-            free = [item for item in whole.items if world.support(item) is None] or whole.items
-            count = count if phrase.count or phrase.head == "other" else len(free)
-            return list(free[len(free) - count :])
-        world.telling = whole.items[count:]
-        return list(whole.items[:count])
-
     def _alike(self, items: Sequence[Item]) -> bool:
         """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
         return len({item.group.noun for item in items}) == 1 or all(
             self._world.is_a(item, lexicon.HOLLOW) for item in items
         )
-
-    def _another(self, at: int, phrase: Phrase) -> list[Item]:
-        """The next of those that are told of one by one, or one more of what was named first in the sentence."""
-        if self._world.telling and phrase.words.lower() in ("another", "another one"):
-            # "Four mugs, one of which holds a pen and another a spoon"
-            return [self._world.telling.pop(0)]
-        named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-        before = [item.group for item in self._world.subject[:1]] or self._world.groups[-1:]
-        groups = [named[0][0].group] if named else before
-        if (alike := self._carrier_like(at)) is not None:
-            groups = [alike]
-        counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
-        counted = [group for group in counted if not group.replaced and not alike]
-        said = set(phrase.words.lower().split())
-        if counted and said & {"more", *lexicon.POSITIONS}:
-            # "Five balls in a box and one more on it": one more ball; "two cups, a third one": a third cup.
-            place = next((lexicon.POSITIONS[word] for word in said & lexicon.POSITIONS.keys()), 0)
-            groups = [group for group in counted if len(group.items) == place] or counted
-        if not groups or groups[0].proxy:
-            return []
-        like = replace(groups[0].phrase.modifiers, postures=())
-        more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
-                       definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
-        return list(self._maker.make(self._world, more).items)
-
-    def _carrier_like(self, at: int) -> Group | None:
-        """What carries in the same way as "another" at chunk `at` is to: "a doll on a chair and a bear on another"."""
-        link = self._chunks[at - 1].link if at else None
-        if link is None or link.kind not in SUPPORT_KINDS:
-            return None
-        before = (head for head in range(at - 2, 0, -1) if self.known.get(head))
-        told = (head for head in before if (piece := self._chunks[head - 1]).link and piece.link.kind == link.kind)
-        head = next(told, None)
-        return None if head is None else self.known[head][0].group
-
-    def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
-        """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
-        words = phrase.modifiers
-        told = {words.size_word, *words.adjectives} & (_LARGER | _SMALLER)
-        if told and not phrase.definite and phrase.words.lower().split()[-1] == "one" and not words.colours:
-            named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-            first = named[0] if named else self._world.subject
-            if len(first) == 1 == len(first[0].group.items):
-                # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
-                return self._one_like(first, phrase)
-        if words.size_word and not words.colours:
-            for item in self._world.items():
-                size = item.told.size_word or item.group.modifiers.size_word
-                if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
-                    return [item]
-            groups = [group for group in groups if len(group.items) > 1]
-            apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
-            if apart and len(apart) == len(groups):
-                # "The two smaller bowls inside the big one": another bowl.
-                return self._one_like(apart[0].items, phrase)
-        for group in groups:
-            own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
-            if own and phrase.definite:
-                if not (phrase.plural or phrase.words.lower().endswith(" ones")):
-                    return own[:count]
-                # "The red ones are stacked, the rest ..."
-                self._world.telling = [item for item in group.items if item not in own]
-                return own[: phrase.count]
-        if phrase.definite and words.colours:
-            # "Two buckets: the green one holds three balls, the red one is empty": of those told by colour.
-            groups = sorted(groups, key=lambda group: not _told_apart(group))
-        whole = next((group for group in groups if len(group.items) > 1), groups[0] if groups else None)
-        if whole is None:
-            return []
-        told = next((group for group in self._world.groups[::-1] if group.modifiers.colours), None)
-        anew = phrase.determined and len(whole.items) == 1 and not colours_of(whole.items[0])
-        if words.colours and anew and told is not None and told is not whole:
-            # "a red ball in the left box and the blue one in the right box": of what has another colour.
-            whole = told
-        if (
-            words.palette
-            or (not phrase.determined and phrase.count is None)
-            or (phrase.plural and phrase.count is None)
-        ):
-            tell_colours(self._world, whole, words)
-            return list(whole.items)
-        free = [item for item in whole.items if not colours_of(item) and not item.told.size_word]
-        known = {colour for item in whole.items for colour in colours_of(item)}
-        if phrase.words.split()[-1] in ("one", "ones") and words.colours and known and not free:
-            # "a blue cube and the yellow one": one more of the kind.
-            own = [item for item in whole.items if words.colours[0] in colours_of(item)]
-            if own and not phrase.definite and whole.exact and len(whole.items) > 1:
-                # "Four cubes: two red, a blue and a white one on a red one": of those that were counted.
-                return own[:count]
-            several = phrase.plural or count > 1 or phrase.words.endswith("ones")
-            more = replace(whole.phrase, words=phrase.words, count=phrase.count,
-                           plural=several, modifiers=words, definite=phrase.definite)  # fmt: skip
-            return list(self._maker.make(self._world, more).items)
-        picked = ([item for item in free if item in self._world.telling] or free)[:count]
-        for item in picked:
-            tell(item, words)
-        self._world.telling = [item for item in free if item not in picked]
-        return picked or list(whole.items[:count])
 
     def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
         """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""
@@ -514,18 +211,6 @@ class References(Contrast):
     def is_open(self, at: int) -> bool:
         """Whether chunk `at` is a pronoun of which it is still to be found what it means."""
         return self._is_pronoun(at) and at not in self.bound and at not in self.known
-
-    def _the_one(self, items: list[Item], phrase: Phrase) -> list[Item]:
-        """The one of `items` that "the smallest of", "the second of" means; all where it tells none."""
-        told = phrase.superlative
-        where = next(iter(told.adjectives), "")
-        if where:
-            return self._at(items, SAME.get(where, where), replace(phrase, modifiers=told))
-        if told.size_word:
-            tell(items[0], told)
-        if phrase.some > 1 and phrase.some < len(items):
-            self._world.telling = items[phrase.some :]
-        return items[: phrase.some or 1] if told.size_word or phrase.some else list(items)
 
     def not_understood(self, heads: Sequence[int], where: str = "") -> None:
         """Name those of `heads` that speak of nothing, and `where` they are said to be."""
