@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
@@ -348,3 +349,9 @@ class Members(Contrast):
         if phrase.some > 1 and phrase.some < len(items):
             self._world.telling = items[phrase.some :]
         return items[: phrase.some or 1] if told.size_word or phrase.some else list(items)
+
+    def _alike(self, items: Sequence[Item]) -> bool:
+        """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
+        return len({item.group.noun for item in items}) == 1 or all(
+            self._world.is_a(item, lexicon.HOLLOW) for item in items
+        )

@@ -168,12 +168,6 @@ class References(Members):
         kept = tuple(word for word in words.adjectives if word not in lexicon.LEVELS)
         self._maker.note_adjectives(self._world, phrase, replace(words, adjectives=kept))
 
-    def _alike(self, items: Sequence[Item]) -> bool:
-        """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
-        return len({item.group.noun for item in items}) == 1 or all(
-            self._world.is_a(item, lexicon.HOLLOW) for item in items
-        )
-
     def with_parts(self, facts: Sequence[tuple]) -> Sequence[Chunk]:
         """The chunks of the sentence, with the drawers that a desk "has" as parts of it."""
         made = list(self._chunks)
