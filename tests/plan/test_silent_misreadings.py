@@ -47,6 +47,8 @@ def test_is_read_as_said(prompt: str, relations: set[str]):
         ("Pick up the largest jug.", 'not modelled: "largest" of "jug": there is only one'),
         ("A pen is on the second shelf and a book on the fourth shelf.",
          'counted otherwise: "the fourth shelf"; there are 2'),
+        ("The green jug and the yellow jug stand on matching colored trays.",
+         'not as said: "matching": "green jug" and "red tray" have two colours'),
         ("A lamp is over a table.", 'not arranged: "A lamp" over "a table"; it is placed on it'),
         ("The tower with three bricks has a red brick at the top.",
          'counted otherwise: "three bricks"; 4 are stacked'),

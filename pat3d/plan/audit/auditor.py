@@ -14,6 +14,7 @@ from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.each import for_each
 from pat3d.plan.audit.identity import confused, side_of
 from pat3d.plan.audit.licence import unsaid
+from pat3d.plan.audit.matched import matched
 from pat3d.plan.audit.members import shares
 from pat3d.plan.audit.numbers import (
     choices,
@@ -189,6 +190,7 @@ class _Auditor(Compared):
             *storeys(self),
             *heights(self),
             *ranked(self),
+            *matched(self),
             *rings(self),
         ]
         made += [*shared_colours(self), *listed_colours(self), *insides(self), *carried(self), *on_the_other(self)]
