@@ -108,6 +108,7 @@ def test_stack_is_a_chain_as_high_as_said(count, noun, support):
 
 @settings(deadline=None, max_examples=60)
 @example("0&\u1369")
+@example("0:")
 @given(st.text(max_size=200))
 def test_any_text_is_planned_or_refused(text):
     for planner in (PLANNER, LENIENT):

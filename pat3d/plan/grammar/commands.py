@@ -115,11 +115,13 @@ def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
 def _given(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "give the can a shake" as "shake the can"."""
     words = [token.text for token in tokens]
-    give = words.index("give") if "give" in words else -1
+    if "give" not in words[:-3]:
+        return tokens
+    give = words.index("give")
     a = next((n for n in range(give + 2, min(give + 8, len(words) - 2)) if words[n] in ("a", "another")), 0)
     deed = a + 1 + (words[a + 1] in ("good", "quick", "gentle", "little", "light", "firm"))
     to = words[give + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"} if a else False
-    if give < 0 or not to or words[deed] not in _GIVEN or any(token.mark for token in tokens[give:deed]):
+    if not to or words[deed] not in _GIVEN or any(token.mark for token in tokens[give:deed]):
         return tokens
     if not (tokens[deed + 1].mark or words[deed + 1] in ("and", "then")):
         return tokens

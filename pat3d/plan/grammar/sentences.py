@@ -20,7 +20,8 @@ CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    return _reordered(_exceptions(_conditions(_labelled(_cut(tokens, nouns)))))
+    told = _reordered(_exceptions(_conditions(_labelled(_cut(tokens, nouns)))))
+    return [sentence for sentence in told if len(sentence) > 1]
 
 
 def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
@@ -78,8 +79,10 @@ def _labelled(told: list[list[Token]]) -> list[list[Token]]:
             made.append(list(sentence[named + 2 :]))
             continue
         whole: list[Token] = []
-        for token in sentence:
-            named_so = names.get(token.text, [])
+        for token, follower in zip(sentence, (*words[1:], ""), strict=True):
+            # "A is on a plate": the second is an article.
+            article = token.text == "a" and follower not in FINITE
+            named_so = [] if article else names.get(token.text, [])
             begun = [each for each in named_so if each.text not in lexicon.DETERMINERS]
             said = [replace(token, text=each.text) for each in begun]
             whole += [replace(token, text="the"), *said] if said else [token]

@@ -148,13 +148,15 @@ def _alternating(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "four cups in a row, alternating red and blue" as "..., red, blue, red and blue"."""
     words = [token.text for token in tokens]
     at = next((n for n in range(4, len(words) - 3) if words[n] in _BY_TURNS), 0)
+    if not at:
+        return tokens
     number = lexicon.NUMBERS.get(words[0], int(words[0]) if words[0].isdecimal() and len(words[0]) < 3 else 0)
     one = at + 1 + (words[at + 1] == "between")
     colours = [tokens[one], tokens[min(one + 2, len(words) - 1)]]
     plain = is_colour_word(colours[0].text) and is_colour_word(colours[1].text) and words[one + 1] == "and"
     counted = any(word in lexicon.NUMBERS or word.isdecimal() for word in words[1:at] if word not in ("a", "one"))
     lined = {"row", "line"} & set(words[:at]) and not counted
-    if not (at and plain and lined and 2 < number <= _IN_TURN and len(words) == one + 4):
+    if not (plain and lined and 2 < number <= _IN_TURN and len(words) == one + 4):
         return tokens
     comma = replace(tokens[at], text=",", mark=True)
     made = [*tokens[:at], *([] if words[at - 1] == "," else [comma])]
