@@ -19,12 +19,14 @@ def again(it: Compared) -> Iterator[tuple[int, str]]:
     """The second burger of "a burger on a plate, fries to the right of the burger"."""
     if (EACH | _FURTHER) & {*it.said.words}:
         return
+    landmarks = {claim.of for claim in it.said.claims if claim.of is not None}
     for noun in dict.fromkeys(mention.noun for mention in it.said.mentions):
         named = [mention for mention in it.said.mentions if mention.noun == noun]
         made = [obj for obj in it.plan.objects if obj.noun == noun]
         first, later = named[0], named[1:]
-        single = first.new and not first.plural and first.number == 1
         same = [one for one in later if _same(it, first, one)]
+        bare = first.number is None and not ARTICLES & {*it.said.words[first.first : first.start]}
+        single = not first.plural and ((bare and landmarks.issuperset(same)) or (first.new and first.number == 1))
         if (
             single
             and len(same) == len(later) > 0

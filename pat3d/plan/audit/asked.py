@@ -15,9 +15,7 @@ _REACH = 12
 _ARMED = frozenset({"bear", "doll", "statue", "figurine", "robot", "monkey", "rabbit", "snowman", "teddy", "figure",
                     "sculpture", "clown", "gnome", "soldier", "penguin"})  # fmt: skip
 """Last words of what holds something in its arms."""
-_SHUT = frozenset(
-    {"bag", "backpack", "handbag", "suitcase", "briefcase", "purse", "drawer", "fridge", "microwave", "oven"}
-)
+_SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave"})
 _DEPTHS = frozenset({"bottom", "back", "rear", "front", "far"})
 _GOALS = frozenset({"of", "to", "into", "onto", "in", "on"})
 _FURTHER = frozenset({"another", "more", "further", "third", "fourth", "extra", "second", "other", "new", "else"})
@@ -33,6 +31,7 @@ def requests(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _posed_already(it)
     yield from _held_in_arms(it)
     yield from _below(it)
+    yield from _handed(it)
     yield from _out_of(it)
 
 
@@ -175,6 +174,11 @@ def _below(it: Compared) -> Iterator[tuple[int, str]]:
         deep = words[at : at + 2] == ["to", "the"] and side in _DEPTHS and words[at + 3] == "of"
         if deep and it.tasks.strip() and f'"to the {side} of' not in it.quoted:
             yield at, f'"to the {side} of {" ".join(words[at + 4 : at + 6])}" is read as where the task puts it'
+
+
+def _handed(it: Compared) -> Iterator[tuple[int, str]]:
+    """Whom "hand me the pen" is said by: nobody is there to take it."""
+    words = it.said.words
     handed = words[:2] in (["hand", "me"], ["bring", "me"], ["pass", "me"], ["hand", "us"]) and "pick:" in it.tasks
     if handed and f'"{words[0]}' not in it.quoted:
         yield 0, f'"{words[0]} {words[1]}" is read as picking it up'

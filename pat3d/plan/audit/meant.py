@@ -10,7 +10,7 @@ from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.contents import carriers, subject
 from pat3d.plan.audit.subjects import row_of
 from pat3d.plan.audit.text import Claim
-from pat3d.plan.audit.words import DEEDS, FINITE, FLOOR, POSED
+from pat3d.plan.audit.words import DEEDS, FINITE, POSED
 
 _BESIDE = frozenset({"beside", "front", "behind", "left", "right", "under", "against"})
 _FURTHER = frozenset({"second", "another", "third"})
@@ -28,9 +28,7 @@ def meant(it: Compared) -> Iterator[tuple[int, str]]:
         yield from _split_landmark(it, claim)
         yield from _all_the_others(it, claim)
         yield from _which_is(it, claim)
-        yield from _named_again(it, claim)
     yield from _both(it)
-    yield from _adrift(it)
 
 
 def _on_the_landmark(it: Compared, claim: Claim) -> Iterator[tuple[int, str]]:
@@ -118,17 +116,6 @@ def _which_is(it: Compared, claim: Claim) -> Iterator[tuple[int, str]]:
             return
 
 
-def _named_again(it: Compared, claim: Claim) -> Iterator[tuple[int, str]]:
-    """The second bowl of "white bowl with eggs, whisk leaning on bowl": in a list without articles it is the first."""
-    again = claim.of
-    if again is None or again.first < again.start or again.plural or it.named(again.text):
-        return
-    before = [one for one in it.said.mentions if one.noun == again.noun and one.end < again.start]
-    there = len(it.of(again))
-    if len(before) == 1 and not before[0].plural and before[0].number in (None, 1) and there > 1:
-        yield again.start, f'counted otherwise: "{again.text}", of which there are {there}'
-
-
 def _both(it: Compared) -> Iterator[tuple[int, str]]:
     """What is moved alone where "both" are, and what stands beside both and is made twice."""
     words, moved = it.said.words, set(_MOVED.findall(it.tasks))
@@ -147,22 +134,3 @@ def _both(it: Compared) -> Iterator[tuple[int, str]]:
             and len(it.which(thing)) > 1
         ):
             yield claim.at, f'counted otherwise: "{thing.text}", of which there are {len(it.which(thing))}'
-
-
-def _adrift(it: Compared) -> Iterator[tuple[int, str]]:
-    """What stands on the ground in "a mug on a coaster, and a lamp on the desk": no verb says where."""
-    words, nouns = it.said.words, {obj.name: obj.noun for obj in it.plan.objects}
-    bearing = any(rel.supports and nouns.get(rel.parent) in it.furniture for rel in it.plan.relations)
-    if not bearing or FLOOR & {*words} or it.tasks.strip() or it.undone:
-        return
-    for claim in it.said.claims:
-        of = claim.of
-        if of is None or claim.place not in ("on", "in") or of.noun in it.furniture or it.named(of.text):
-            continue
-        thing = subject(it, claim)
-        verbless = thing is not None and thing.end == claim.at and not FINITE & {*words}
-        roots = {name for obj in it.which(of) for name in [obj.name, *it.above(obj.name)][-1:]}
-        beside = {b for a, _, b in it.edges if a in roots and b not in roots and not roots & {*it.above(b)}}
-        carried = any(it.above(name) for name in beside) or any(nouns[name] in it.furniture for name in beside | roots)
-        if verbless and roots and not carried:
-            yield claim.at, f'"{" ".join(words[of.first : of.end])}": where is not said; on the ground'

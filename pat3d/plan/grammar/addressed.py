@@ -13,7 +13,6 @@ from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.vocabulary import Nouns
 
-_GREETINGS = frozenset({"hey", "hi", "hello", "ok", "okay", "alright", "dear", "so", "well", "now", "right", "listen"})
 _TOLD = frozenset({"robot", "bot", "assistant", "agent", "machine"})
 _ASKING = frozenset({"please", "kindly", "now", "then", "carefully", "gently", "can", "could", "would", "will", "i"})
 _LABELS = frozenset({"task", "instruction", "command", "request", "order", "goal", "objective", "step", "mission"})
@@ -65,8 +64,8 @@ def _without_name_behind(tokens: Sequence[Token]) -> list[Token]:
 
 def _greeted(words: Sequence[str], at: int) -> int:
     """The word after "okay, hey" at word `at`."""
-    while words[at] in _GREETINGS:
-        at += 1 + (words[at + 1] == "," and words[at + 2] in _GREETINGS | _TOLD)
+    while words[at] in lexicon.GREETINGS:
+        at += 1 + (words[at + 1] == "," and words[at + 2] in lexicon.GREETINGS | _TOLD)
     return at
 
 

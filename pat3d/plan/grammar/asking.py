@@ -12,11 +12,12 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.measures import is_measure
 from pat3d.plan.grammar.same_colour import in_one_way
 from pat3d.plan.grammar.unmade import base_verb
 
 _LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES
-_GREETING = frozenset({"hey", "hi", "hello", "ok", "okay", "alright", "there", "well", "good", "morning"})
+_GREETING = lexicon.GREETINGS | {"there", "good", "morning"}
 _POLITE = tuple(sorted((tuple(said.split()) for said in (
     "would you mind", "do you mind", "would it be possible to", "would it be possible for you to", "is it possible to",
     "i'd like you to", "i would like you to", "i'd love you to", "i need you to", "we need you to", "i ask you to",
@@ -41,6 +42,8 @@ _ENDING = frozenset({"and", "then", "to", "onto", "into"})
 _EVERY = (("all", "of", "them"), ("all", "of", "these"), ("everything",), ("anything",), ("all",))
 _BUT = (("except", "for"), ("apart", "from"), ("other", "than"), ("but", "for"), ("save", "for"), ("but", "not"),
         ("except",), ("but",), ("save",), ("excluding",))  # fmt: skip
+_LEAVING = frozenset({"from", "off", "out", "of", "with"})
+"""Words from where something is, or with what."""
 _STANDING = frozenset({"lean", "lie", "hang", "rest", "sit"})
 
 
@@ -50,7 +53,7 @@ def plainly_asked(told: list[list[Token]]) -> list[list[Token]]:
     for sentence in told:
         sentence = _rid(_nothing_there(sentence))
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_lowered(_emptied(_making_room(_able(_politely(plain))))))))
+        plain = _inside(_so_that(_let(_got(_lowered(_emptied(_making_room(_able(_politely(plain)))))))))
         piled = any(token.text in _PILES for each in made for token in each)
         for checked in _checked(plain):
             for each in _from_stack(checked, piled=piled):
@@ -154,6 +157,19 @@ def _lowered(sentence: list[Token]) -> list[Token]:
             to = next(n for n in range(at + 2, len(words)) if sentence[n].mark or link_at(sentence, n))
             if words[to] in ("in", "into", "on", "onto"):
                 return [*sentence[:at], replace(sentence[at], text="put"), *sentence[at + 1 :]]
+    return sentence
+
+
+def _got(sentence: list[Token]) -> list[Token]:
+    """Read "get it next to the bowl" as "move it next to the bowl": by no place it is told what "it" is."""
+    words = [token.text for token in sentence]
+    for at in range(len(words) - 4):
+        opens = not at or sentence[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        if words[at] != "get" or not opens or words[at + 1] not in ("it", "them"):
+            continue
+        there = link_at(sentence, at + 2) and words[at + 2] not in _LEAVING
+        if there or is_measure(words[at + 2]) or words[at + 2].isdecimal():
+            return [*sentence[:at], replace(sentence[at], text="move"), *sentence[at + 1 :]]
     return sentence
 
 

@@ -118,11 +118,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     comma, named = forbidden(tokens, opens)
     if comma:
         there = [Clause(tokens=(*named, tokens[-1]))] if named else []
-        rest = list(tokens[comma + 1 :])
-        if tokens[1].text == "lifting" and rest[0].text == "get":
-            # "Without lifting the lemon, get it next to the bowl": it is not picked up.
-            rest[0] = replace(rest[0], text="move")
-        told = [*there, *(replace(each, first=False) if there else each for each in clauses(text, rest, nouns))]
+        rest = clauses(text, tokens[comma + 1 :], nouns)
+        told = [*there, *(replace(each, first=False) if there else each for each in rest)]
         return [replace(told[0], aside=(text[tokens[0].start : tokens[comma - 1].end], *told[0].aside)), *told[1:]]
     tokens = commanded(errands(in_order(tokens, opens)))
     starts: list[tuple[int, int]] = []

@@ -102,16 +102,15 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "quality", "resolution", "detail", "details", "workspace", "world", "corner", "tabletop scene", "still life",
     "living room", "dining room", "carpeted floor", "countertop scene", "foreground", "sun", "moonlight", "light",
     "hallway", "sill", "windowsill", "doorway", "wallpaper", "curtain", "curtains", "lounge", "study", "den", "loft",
-    "workcell",
-    "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom", "apartment", "courtyard", "porch", "veranda",
-    "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery", "yard", "backyard", "patio", "terrace", "balcony",
-    "campsite", "campground", "camp", "alley", "plaza", "farm", "barn", "stable", "harbour", "harbor", "shore",
-    "riverside", "warehouse", "factory", "store", "supermarket", "market", "school", "hospital", "hotel", "lab",
-    "laboratory", "cellar", "driveway", "playground", "roadside", "cafeteria", "pantry", "entryway", "foyer",
-    "lakeside", "countryside", "sunshine", "nighttime", "daytime", "daylight", "dusk", "dawn", "sunset", "sunrise",
-    "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed", "pair view", "suite",
-    "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation", "direction", "user",
-    "manner", "way", "fashion", "use", "close up", "grain patterns", "windows"})  # fmt: skip
+    "workcell", "attic", "basement", "lobby", "parlour", "parlor", "salon", "sunroom", "apartment", "courtyard",
+    "porch", "veranda", "pavement", "sidewalk", "meadow", "gallery", "museum", "bakery", "yard", "backyard", "patio",
+    "terrace", "balcony", "campsite", "campground", "camp", "alley", "plaza", "farm", "barn", "stable", "harbour",
+    "harbor", "shore", "riverside", "warehouse", "factory", "store", "supermarket", "market", "school", "hospital",
+    "hotel", "lab", "laboratory", "cellar", "driveway", "playground", "roadside", "cafeteria", "pantry", "entryway",
+    "foyer", "lakeside", "countryside", "sunshine", "nighttime", "daytime", "daylight", "dusk", "dawn", "sunset",
+    "sunrise", "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed",
+    "pair view", "suite", "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation",
+    "direction", "user", "manner", "way", "fashion", "use", "close up", "grain patterns", "windows"})  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents",
     "elements"})  # fmt: skip
@@ -125,12 +124,11 @@ PARTS = frozenset({"head", "top", "back", "edge", "side", "middle", "center", "c
     "front", "lid", "frame", "bristle", "marking", "spot", "icing", "frosting", "shade", "tabletop", "desktop", "layer",
     "end", "half", "tip", "blade", "knob", "opening", "shell", "stem", "door", "compartment", "switch", "shoulder",
     "wing", "interior", "sleeve", "scarf", "bow", "ribbon", "face", "smile", "handlebar", "pocket", "nozzle", "skin",
-    "flesh", "flap", "pedal", "brim", "prong", "seam", "strap", "zipper", "hinge", "crust",
-    "rind", "stalk", "fin", "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot",
-    "stitching", "engraving", "bite", "residue", "component", "earpiece", "text", "lettering", "lace", "sole",
-    "logo", "sticker", "crack", "scratch", "stain", "decal", "emblem", "inscription", "gripper", "effector",
-    "yolk", "condensation", "droplet", "underside", "outline", "hue", "highlight", "reflection",
-    "manipulator", "hardware"})  # fmt: skip
+    "flesh", "flap", "pedal", "brim", "prong", "seam", "strap", "zipper", "hinge", "crust", "rind", "stalk", "fin",
+    "mane", "horn", "whisker", "crease", "wick", "lens", "dial", "keyhole", "slot", "stitching", "engraving", "bite",
+    "residue", "component", "earpiece", "text", "lettering", "lace", "sole", "logo", "sticker", "crack", "scratch",
+    "stain", "decal", "emblem", "inscription", "gripper", "effector", "yolk", "condensation", "droplet", "underside",
+    "outline", "hue", "highlight", "reflection", "manipulator", "hardware"})  # fmt: skip
 """Parts of objects: they place nothing, but may carry a colour or name where something sits."""
 MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern", "body", "frame", "shade", "petal",
     "surface", "top", "icing", "frosting", "print", "leaf", "spine", "tabletop", "mattress", "head"})  # fmt: skip
@@ -206,18 +204,17 @@ GENERICS: dict[str, tuple[str, ...]] = {
 """Nouns for a kind of thing, and the things that stand for it in turn."""
 MASS_GENERICS = frozenset({"electronics", "fruit", "cutlery", "silverware", "stationery", "furniture"})
 
-FLOOR = ("bed", "bedside table", "nightstand", "bookshelf", "sofa", "coffee table", "table", "desk", "rug", "chair",
-    "side table", "shelf", "shelving unit", "cart", "pool", "inflatable pool", "tree", "armchair", "bench", "cabinet",
-    "dresser", "wardrobe", "bookcase", "ottoman", "dining table", "floor lamp", "rocking chair", "tv stand", "swing",
-    "crib", "closet", "counter", "stove", "fridge", "refrigerator", "washing machine", "bathtub", "trolley", "stool",
-    "wizard", "carpet", "couch", "loveseat", "recliner", "futon", "chest of drawers", "piano", "floor cushion",
-    "kitchen island", "workbench", "sink", "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet",
-    "yoga mat", "parasol")  # fmt: skip
+FLOOR = ("bed", "bedside table", "bookshelf", "sofa", "coffee table", "table", "desk", "rug", "chair", "side table",
+    "shelf", "cart", "inflatable pool", "tree", "armchair", "bench", "cabinet", "dresser", "wardrobe", "ottoman",
+    "floor lamp", "rocking chair", "tv stand", "swing", "crib", "counter", "stove", "fridge", "washing machine",
+    "bathtub", "stool", "wizard", "futon", "piano", "floor cushion", "kitchen island", "workbench", "sink",
+    "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet", "yoga mat", "parasol", "coat stand",
+    "towel rail")  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
-LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "nightstand", "shelf", "shelving unit",
-    "bookshelf", "counter", "cabinet", "dresser", "bench", "tray", "cart", "trolley", "dining table", "rug", "carpet",
-    "tv stand", "workbench", "cutting board", "bookcase", "wardrobe", "ottoman", "stool", "mat", "placemat", "cupboard",
-    "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard", "pallet")  # fmt: skip
+LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "shelf", "bookshelf", "counter", "cabinet",
+    "dresser", "bench", "tray", "cart", "rug", "tv stand", "workbench", "cutting board", "wardrobe", "ottoman", "stool",
+    "placemat", "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard",
+    "pallet")  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
 DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat",
           "baking tray", "trivet")  # fmt: skip
@@ -328,13 +325,13 @@ DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob",
 """Parts with a name that is a thing's too: "the lid of the box" is the box."""
 FITTED = frozenset({"rack", "racks", "tray", "seat", "basket"})
 """Parts of furniture and appliances that are also things of their own."""
+GREETINGS = frozenset({"hey", "hi", "hello", "ok", "okay", "alright", "dear", "so", "well", "now", "right", "listen"})
 VIEWERS = frozenset({"you", "me", "us", "viewer", "observer", "onlooker", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
     "clockwise", "counterclockwise", "sideways"})  # fmt: skip
 HONOURED = frozenset({"open", "opened", "closed", "shut", "square", "cubic", "flat", "tall", "long", "rectangular",
-    "striped", "high", "deep", "short",
-    "shallow", "low", "wide", "narrow", "baby", "young", "newborn", "lit", "burning", "flickering", "thin", "slim",
-    "thick", "heavy", "round", "landscape", "kitten"})  # fmt: skip
+    "striped", "high", "deep", "short", "shallow", "low", "wide", "narrow", "baby", "young", "newborn", "lit",
+    "burning", "flickering", "thin", "slim", "thick", "heavy", "round", "landscape", "kitten"})  # fmt: skip
 """Adjectives that recipes of the catalogue make something of."""
 SAID_OTHERWISE = frozenset({"other", "same", "different", "another", "single", "own", "more", "left", "right", "middle",
     "first", "second", "third", "fourth", "fifth", "last", "leftmost", "rightmost", "front", "back", "alternating",

@@ -137,13 +137,16 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(kind="around"), "around", "all around", "surrounding", "encircling", "circling", "gathered around")
     rings = [f"in a {ring} {word}" for ring in ("circle", "ring") for word in ("around", "surrounding", "round")]
     add(Link(kind="around", says="circle"), *rings, *(f"forming {ring[3:]}" for ring in rings))
-    for near in ("at", "on", "near", "in", "by", "along", "close to"):
-        for part in ("edge", "corner", "end", "rim", "border"):
-            edge = Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge")
+    for part in ("edge", "corner", "end", "rim", "border"):
+        edge = Link(manner="edge", kind="on", says="in_corner" if part == "corner" else "at_edge")
+        told = [
+            (which, replace(edge, said=which)) for which in (WHICH_EDGE if part in ("edge", "corner", "end") else ())
+        ]
+        for near in ("at", "on", "near", "in", "by", "along", "close to"):
             for det in ("the", "a", "one"):
                 add(edge, f"{near} {det} {part} of", f"{near} {det} very {part} of")
-                for which in WHICH_EDGE if part in ("edge", "corner", "end") else ():
-                    add(replace(edge, said=which), f"{near} {det} {which} {part} of")
+                for which, one in told:
+                    add(one, f"{near} {det} {which} {part} of")
     whichever = ("each", "every", "each of the", "each of the four", "the", "the four", "all four", "all the",
                  "all of the", "all four of the", "opposite", "two")  # fmt: skip
     corners = (f"{near} {which} corner{'' if which in ('each', 'every') else 's'} of"

@@ -63,10 +63,9 @@ _WHO_HOLD = frozenset({"robot", "arm", "gripper", "hand", "agent", "you", "i", "
 """Words before "should hold" that tell who does it."""
 _SILENT = tuple(tuple(said.split()) for said in (
     "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
-    "and nothing else", "in that order", "any more",
-    "so that it is", "so that it stands", "so that they are", "so that they stand",
-    "seen from above", "viewed from above", "seen from the side", "seen from the front", "as seen from above",
-    "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
+    "and nothing else", "in that order", "any more", "so that it is", "so that it stands", "so that they are",
+    "so that they stand", "seen from above", "viewed from above", "seen from the side", "seen from the front",
+    "as seen from above", "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
 ))  # fmt: skip
 """Words that change nothing where they stand."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+from abc import ABC, abstractmethod
 from collections.abc import Collection
 from dataclasses import replace
 
@@ -23,16 +24,16 @@ from pat3d.plan.grammar.vocabulary import Nouns
 from pat3d.plan.grammar.world import World
 
 
-class Sparing:
+class Sparing(ABC):
     """Reads a clause with less than all of its words."""
 
     _nouns: Nouns
     _likely: Plausible
     _maker: Maker
 
+    @abstractmethod
     def _told(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with all that `clause` says, and the next likely reading where it is nearly as likely."""
-        raise NotImplementedError
 
     def _in_pieces(
         self, text: str, clause: Clause, world: World, company: Collection[str], fault: PromptError
