@@ -15,6 +15,7 @@ from pat3d.plan.audit.text import Claim, Mention, singulars
 from pat3d.plan.audit.words import (
     BREAKING,
     EACH,
+    GUESTS,
     HEADLESS,
     NUMBERS,
     PACKETS,
@@ -113,7 +114,7 @@ def _stays(one: Claim, other: Claim) -> bool:
 def _multiplied(it: Compared) -> Iterator[tuple[int, str]]:
     """What is singular, and of which there are several though no word multiplies it."""
     words = it.said.words
-    each = [at for at, word in enumerate(words) if word in EACH]
+    each = [at for at, word in enumerate(words) if word in EACH and not {*words[at + 1 : at + 2]} & GUESTS]
     own = (["of", "them"], ["of", "which"])
     led = [at for at in each if (set(words[at + 1 : at + 2]) & (BREAKING - {"of"}) and words[at - 1] not in PLACING)
            or (words[at - 1] == "," and words[at + 1 : at + 3] in own)]  # fmt: skip

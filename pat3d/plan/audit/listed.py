@@ -41,11 +41,11 @@ def _first(it: Compared, claim: Claim) -> Mention | None:
     words = it.said.words
     if claim.place == "holding" or words[claim.at] in HAS:
         return claim.of if words[claim.at] in FINITE or not words[claim.at].endswith("ing") else None
-    opens = claim.at == 0 or words[claim.at - 1] in (".", ";") or words[claim.end - 1] == "which"
+    opens = claim.at == 0 or words[claim.at - 1] in (".", ";") or words[claim.end - 1 : claim.end] == ["which"]
     at = claim.end
     while at < len(words) and words[at] in FINITE | POSED | {"there"}:
         at += 1
-    if claim.place not in _LOWER or not opens or (at == claim.end and words[claim.end - 1] != "which"):
+    if claim.place not in _LOWER or not opens or (at == claim.end and words[claim.end - 1 : claim.end] != ["which"]):
         return None
     return next((one for one in it.said.mentions if one.first == at), None)
 

@@ -9,7 +9,7 @@ from itertools import pairwise
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.words import DEEDS, FALLEN, SILENT, UNITS
+from pat3d.plan.audit.words import DEEDS, EACH, FALLEN, GUESTS, SILENT, UNITS
 from pat3d.scene.arrangements import crossing
 from pat3d.scene.relations import carriers_of
 
@@ -48,7 +48,7 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
         if measured and word.startswith(_MEASURING):
             continue
         wished = word in ("get", "have") and words[at - 1 : at] in (["i"], ["we"], ["to"])
-        wished = wished or _goes_without_saying(words, at)
+        wished = wished or _goes_without_saying(words, at) or (word in GUESTS and _shared(it, words[at - 2 : at]))
         acts = wished or (word == "robot" and words[at + 1 : at + 2] in (["should"], ["will"], ["finds"], ["can"]))
         hued = word in _COLOURS and len({obj.colours for obj in it.plan.objects}) > 2
         gone = acts or hued or (word in FALLEN and words[at + 1 : at + 2] in (["out"], ["off"], ["from"], ["down"]))
@@ -71,6 +71,12 @@ def _goes_without_saying(words: Sequence[str], at: int) -> bool:
     sided = word == "respectively" and len(_SIDES & {*words[:at]}) > 1
     sided = sided or (word == "apart" and after == ["from"])
     return flat or counted or sided or (word in ("farthest", "furthest") and after in (["left"], ["right"]))
+
+
+def _shared(it: Compared, before: Sequence[str]) -> bool:
+    """Whether there is something for every one of the guests that stand behind the words `before`."""
+    several = any(len(it.which(one)) > 1 for one in it.said.mentions if not one.plural and one.number in (None, 1))
+    return several and ({*before[-1:]} <= EACH | {"per"} or before[:1] == ["for"])
 
 
 def _shapes(it: Compared) -> frozenset[str]:

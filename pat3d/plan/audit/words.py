@@ -96,6 +96,8 @@ SPLITTING = REPEATS | NUMBERS.keys() - {"a", "an"} | HEADLESS | {"some", "respec
 """Words by which likes are told from one another."""
 SIDES = frozenset({"left", "right", "front", "back"})
 EACH = frozenset({"each", "every", "either"})
+GUESTS = frozenset({"place", "setting", "seat", "person", "people", "persons", "guest", "guests", "diner", "diners"})
+"""Who has what stands behind "each" on a table, and where they sit."""
 ENDS = frozenset({"end", "side", "ends", "sides", "hand"})
 CORNERS = frozenset({"corner", "corners"})
 PARTS: dict[str, frozenset[str]] = {

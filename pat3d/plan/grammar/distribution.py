@@ -8,12 +8,10 @@ four apples"), unless "both", "all" or "each" says it of every one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Literal
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.entities import Group, Item
-from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.objects import multiply, recount
 from pat3d.plan.grammar.phrases import Phrase
@@ -25,32 +23,11 @@ Share = Literal["each", "in turn", "together", "as counted"]
 _SPREAD = ("blanket", "rug", "carpet", "sheet", "tablecloth")
 """What lies over several things at once."""
 _ALL = frozenset({"both", "all"})
-_PERSONS = frozenset({"people", "persons", "guests"})
 
 
 def says_all(phrase: Phrase) -> bool:
     """Whether `phrase` speaks of every one of several: "both trays", "all three cups"."""
     return phrase.words.lower().split()[:1] in ([word] for word in _ALL)
-
-
-def for_guests(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "for two: a plate and a fork each" as ": two plates and two forks"."""
-    words = [token.text for token in tokens]
-    number = next((n for n in range(1, len(words) - 1) if words[n - 1] == "for" and _guests(words, n)), 0)
-    each = next((n for n in range(number, len(words) - 1) if words[n] == "each" and tokens[n + 1].mark), 0)
-    if not number or not each:
-        return list(tokens)
-    after = number + 1 + (words[number + 1] in _PERSONS)
-    things = [replace(token, text=words[number]) if token.text in ("a", "an", "one") else token
-              for token in tokens[after:each]]  # fmt: skip
-    return [*tokens[: number - 1], *things, *tokens[each + 1 :]]
-
-
-def _guests(words: Sequence[str], at: int) -> bool:
-    """Whether word `at` says for how many persons a table is set."""
-    after = at + 1 + (words[at + 1] in _PERSONS)
-    several = lexicon.NUMBERS.get(words[at], 1) > 1 and words[at] != "both"
-    return several and words[after : after + 1] in ([":"], [","], ["with"])
 
 
 def share(

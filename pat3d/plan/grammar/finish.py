@@ -151,7 +151,7 @@ def _pair_sides(world: World) -> None:
 def _side_alone(world: World, told: Sided) -> None:
     """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
     kind = _KINDS[_ORDER[told.side]]
-    implied = [item for item in told.implied if item not in told.items]
+    implied = [item for item in told.implied or _others_there(world, told) if item not in told.items]
     if implied:
         firsts = {item.group: item for item in reversed(implied)}
         for first in reversed(firsts.values()):
@@ -167,6 +167,17 @@ def _side_alone(world: World, told: Sided) -> None:
             )
             return
         world.note(f'"{told.items[0].group.words}" ({where}): there is nothing beside it that it could be {where} of.')
+
+
+def _others_there(world: World, told: Sided) -> list[Item]:
+    """What else stands on the surface on a side of which something is told to be, and beside nothing on it."""
+    carrier = world.support(told.items[0])
+    bare = told.side in ("one", "other") or any(_tells_side(edge, told) for edge in world.laterals)
+    if bare or carrier is None or carrier not in told.owner:
+        return []
+    there = [item for item, edge in world.supports.items() if edge.parent is carrier]
+    beside = {edge.child for edge in world.laterals if edge.parent in there}
+    return [item for item in there if item not in beside]
 
 
 def _tells_side(edge: Edge, told: Sided) -> bool:

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.judging import HEADLESS, Judging
-from pat3d.plan.grammar.lexicon import DISHES, ON_RIMS, SLENDER
+from pat3d.plan.grammar.lexicon import DISHES, LEVEL, ON_RIMS, SLENDER
 from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.plausible import USUAL
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
-
-_USUAL = 0.34
-"""Cost of having something below which one thinks of it as on or in its owner."""
-
 
 _OF_BACKGROUND = 0.6
 """Cost of a place that is one of the wall's or the window's."""
+_SAME_OWNER = 0.45
+"""Gain where what stands "to its left" and "to its right" has one owner."""
 _ENDED = 0.35
 """Cost of having more behind what is said to be in or on the owner."""
 
@@ -71,7 +70,11 @@ class Having(Judging):
                 # "A row of cans, with an orange behind the last one"
                 cost += self._likely.relation(self._link(fact[1]), self._noun(fact[2][0]), self._noun(owners[0]))
                 placed |= set(fact[2])
-            if fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
+            mate = self._mate(fact[2], modifier, owners) if aside and self._is_pronoun(fact[3]) else ()
+            if mate:
+                facts.append(("bind", fact[3][0], mate))
+                cost += self._arcs(self._link(fact[1]), fact[2], mate)
+            elif fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._means(fact[3], owners):
                 facts.append(("bind", fact[3][0], owners))
                 # "Two chairs across a table with a lamp on it": on the table.
                 one = self._phrase(fact[3][0]).head == "it" and self._phrase(owners[0]).kind == "object"
@@ -87,6 +90,16 @@ class Having(Judging):
                 placed |= set(fact[2])
                 cost += 0.2
             facts.append(fact)
+        sides = {
+            self._chunks[fact[1]].text: fact[2] for fact in facts
+            if fact[0] == "place" and fact[2] == (fact[1] - 1,) and {"its", "their"} & {*self._chunks[fact[1]].words}
+        }  # fmt: skip
+        # "each with a fork to its left and a knife to its right": of the same plate.
+        cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys())
+        ends = modifier.joints == ";" or (modifier.joints.endswith(";") and placed == {*modifier.heads[:-1]})
+        if ends and self._phrase(owners[0]).head == "each":
+            # "two plates, each with a fork to its left, and two glasses": the glasses are on the table.
+            cost += 0.8
         # "A basket with a towel and a bowl which holds two lemons": what a relative clause tells ends no list.
         told = [fact for fact in modifier.facts if fact[0] == "have" and self._chunks[fact[1] - 1].kind != "which"]
         having = {owner for fact in told for owner in fact[2]} | self._filled(modifier.facts)
@@ -157,6 +170,24 @@ class Having(Judging):
             )
         return facts, cost
 
+    def _mate(self, children: tuple[int, ...], had: Node, owners: tuple[int, ...]) -> tuple[int, ...]:
+        """What one thing `children` stand beside that are "beside it" on the level `owners`; () where that is those.
+
+        "A desk with a lamp, a mug beside it": the lamp; "a tray with a pot in the middle and a cup behind it": the pot.
+        "A tray with a pot and a cup beside it" may be told of the tray.
+        """
+        own = [fact for fact in had.facts if {*fact[2:3]} and {*fact[2]} <= {*had.heads} and fact[1] < min(children)]
+        aside = {head for fact in own if fact[0] == "rel" and self._is_pronoun(fact[3]) for head in fact[2]}
+        before = [head for head in had.heads if head < min(children) and head not in aside]
+        owner = self._noun(owners[0])
+        if not before or len(owners) > 1 or self._several(before[-1]):
+            return ()
+        told = any(fact[0] == "place" and fact[2] == (before[-1],) for fact in own)
+        bears = self._likely.is_a(owner, LEVEL, DISHES)
+        natural = all(self._likely.on(self._noun(child), owner) < USUAL for child in children)
+        goes_on = max(had.heads) > max(children)
+        return (before[-1],) if bears and natural and (told or goes_on or self._likely.floor(owner)) else ()
+
     def _filled(self, facts: tuple[tuple, ...]) -> set[int]:
         """What `facts` have something in or on: "a crate with an apple in it"."""
         meant = {fact[1]: fact[2] for fact in facts if fact[0] == "bind"}
@@ -191,4 +222,4 @@ class Having(Judging):
         """Whether one thinks of `child` as on or in `owner` rather than beside it: cake on a plate, but no fork."""
         likely = self._likely
         cutlery = likely.is_a(child, SLENDER) and likely.is_a(owner, DISHES)
-        return likely.having(link, owner, child) < _USUAL and not cutlery
+        return likely.having(link, owner, child) < USUAL and not cutlery

@@ -17,6 +17,7 @@ from pat3d.plan.grammar.links import ACROSS, Link
 from pat3d.plan.grammar.matching import LATERAL_SIDES, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.objects import multiply, recount, tell_colours
+from pat3d.plan.grammar.plausible import USUAL
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _UNHEARD = 0.8
@@ -251,6 +252,8 @@ class Interpreter(Holding):
             link = Link(kind="next_to")
         if self._clause.manner is None:
             link = self._resting(at, link, children, parents)
+        if link.kind in LATERAL_KINDS and parents:
+            self._note_mate(child_heads, parent_heads, parents[0])
         places = [self._chunks[head].phrase for head in parent_heads]
         for head in parent_heads:
             self._note_part(head)
@@ -357,6 +360,19 @@ class Interpreter(Holding):
         owners = [inner for head in parent_heads for inner in self._said.bound[head]]
         links = [chunk.link for chunk in self._chunks[max(owners) : at]]
         return any(link is not None and link.finite and link.inverse for link in links)
+
+    def _note_mate(self, child_heads: Sequence[int], parent_heads: Sequence[int], carrier: Item) -> None:
+        """Say that "beside it" of "a tray with a cup and a spoon beside it" may be beside the cup."""
+        owners = {*self._said.bound.get(parent_heads[0], ())}
+        had = [head for one, other in self._said.related if one == owners for head in sorted(other)]
+        mates = [self._chunks[head] for head in had if max(owners) < head < min(child_heads)]
+        mates = [mate for mate in mates if mate.phrase is not None and mate.phrase.kind == "object"
+                 and not (mate.phrase.several or self._world.likely.floor(mate.phrase.noun))]  # fmt: skip
+        dish = self._world.is_a(carrier, lexicon.DISHES) and not self._world.on_floor(carrier)
+        nouns = [self._chunks[head].named.noun for head in child_heads]
+        if mates and dish and all(self._world.likely.on(noun, self._world.noun(carrier)) < USUAL for noun in nouns):
+            it, read = self._chunks[parent_heads[0]].named, carrier.group.words
+            self._world.note(f'"{it.words}" (word {it.number}) is read as "{read}"; it may be "{mates[-1].text}".')
 
     def _whole(self, head: int, children: list[Item]) -> list[Item]:
         """All of which "one of the two spoons out of the jar" means one: the two are in the jar."""

@@ -26,7 +26,6 @@ from pat3d.plan.grammar.displaced import (
     which_carries,
     which_last,
 )
-from pat3d.plan.grammar.distribution import for_guests
 from pat3d.plan.grammar.enumerated import alternating, enumerated
 from pat3d.plan.grammar.gapping import ungapped
 from pat3d.plan.grammar.joined_ranks import with_own_nouns
@@ -77,7 +76,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
     tokens = with_own_nouns(ranged(sides(the_ones(one_of_two(tokens, nouns)), nouns), nouns), nouns)
-    tokens = at_levels(alternating(for_guests(tokens), nouns), nouns)
+    tokens = at_levels(alternating(tokens, nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)

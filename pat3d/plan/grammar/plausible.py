@@ -11,6 +11,8 @@ from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.sizes import slips_into
 from pat3d.plan.grammar.vocabulary import Nouns
 
+USUAL = 0.34
+"""Cost of being had by something below which one thinks of it as on or in its owner."""
 _NEUTRAL = 0.35
 _SUPPORTING = (
     "cake", "book", "box", "pillow", "radio", "basket", "block", "pizza", "laptop", "pancake", "brick", "crate",

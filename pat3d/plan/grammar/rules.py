@@ -113,6 +113,8 @@ class Grammar(Listing):
         if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
+            # "A keyboard in front of it and a mouse": the mouse is one more thing.
+            cost += 0.6 * (self._is_pronoun(objects.heads[:1]) and not self._definite(objects.heads[1:]))
         if said.kind in SUPPORT_KINDS and said.manner == "place" and len(objects.heads) == 1:
             # "A toolbox sits on a bench holding a hammer": the toolbox holds it, where it can.
             held = [fact for fact in objects.facts if fact[0] == "have" and fact[2] == objects.heads]

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.asking import plainly_asked
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.doers import told_plainly
 from pat3d.plan.grammar.exceptions import exceptions
+from pat3d.plan.grammar.guests import for_guests
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word
@@ -32,7 +33,7 @@ _LADEN = frozenset({
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _contents(so_that(told_plainly(tokens)), nouns)
+    tokens = _contents(so_that(told_plainly(for_guests(tokens))), nouns)
     told = _conditions(_labelled(_cut(tokens, nouns)))
     told = _reordered(exceptions(plainly_asked(told)), nouns)
     return [sentence for sentence in told if len(sentence) > 1]
