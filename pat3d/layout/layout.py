@@ -36,7 +36,7 @@ from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat
 from pat3d.layout.tops import Top, item_of, spread
 from pat3d.layout.turning import turned_to_targets
-from pat3d.layout.turns import free_turn
+from pat3d.layout.turns import abreast, free_turn
 from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
@@ -127,6 +127,9 @@ class _Arranger:
         self.intents = Intents(placed, self._path, self.kinds, self.laterals, self.spans)
         self.notes.extend(self.intents.notes)
         self.intents.yaws |= bookends(placed, lambda name: self.bodies[name].asset.noun)
+        free = [name for name in assets if not (name in postures or self.children[name] or self.intents.yaws.get(name))]
+        carriers = {name: self.bodies.get(self.parents[name]) for name in free}
+        self.intents.yaws |= abreast(placed, self.bodies, carriers)
         self.turned = {name: posture_rotation(self.bodies[name], kind) for name, kind in postures.items()}
         """How objects are turned before their yaw, shape (3, 3), where they do not stand as they are made."""
         self._around = self._around_tables()

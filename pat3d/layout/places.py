@@ -23,6 +23,8 @@ NEAR = (0.05, 0.15)
 """What is at an edge is at most this far from it: [m], or as a share of half the surface, whichever is more."""
 MIDDLE = (0.02, 0.15)
 """What is in the middle is at most this far from it: [m], or as a share of half the surface, whichever is more."""
+_OFF_MIDDLE = 0.7
+"""Share of that which the layout uses; settling takes some."""
 INSIDE = (0.01, 0.04)
 """How far from an edge the layout puts things: [m], or as a share of half the surface, whichever is less."""
 _TRIED = 64
@@ -48,9 +50,10 @@ def pins(
     }
     wanted = [whole.get(item.name, item) for item in items if item.name in places and item.name not in led]
     options = [_spots(places[item.name], item, surface) for item in wanted]
-    for one in options:
-        # The near ones by chance, so that not everything is in the same corner.
-        rng.shuffle(one)
+    for item, one in zip(wanted, options, strict=True):
+        if places[item.name] != "in_middle":
+            # The near ones by chance, so that not everything is in the same corner.
+            rng.shuffle(one)
     for chosen in itertools.islice(itertools.product(*options), _TRIED):
         found = {item.name: spot for item, spot in zip(wanted, chosen, strict=True)}
         boxes = [(spot + item.low, spot + item.high) for item, spot in zip(wanted, chosen, strict=True)]
@@ -72,7 +75,10 @@ def _spots(kind: str, item: Item, surface: Surface) -> list[Array]:
     half = np.array(surface.half_size)
     centre = (item.low + item.high) / 2
     if kind == "in_middle":
-        return [-item.middle]
+        # Where it leaves no room for what stands beside it, a little off: still in the middle.
+        off = _OFF_MIDDLE * np.maximum(MIDDLE[0], MIDDLE[1] * half)
+        ways = ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0))
+        return [np.array(way) * off - item.middle for way in ways]
     if surface.disc:
         inset = min(INSIDE[0], INSIDE[1] * float(half[0]))
         reach = float(np.linalg.norm(item.outline - centre, axis=1).max())

@@ -420,6 +420,29 @@ def test_layouts_have_what_they_are_asked_for(seed):
     assert [result for result in found if not result.holds] == []
 
 
+@pytest.mark.parametrize(("deep", "across"), [(0.6, 90.0), (0.1, 0.0)])
+def test_slender_things_in_a_row_lie_side_by_side_where_there_is_room_across(deep, across):
+    rod = block(0.2, 0.02, 0.02, noun="ruler")
+    assets = {"table": table(y=deep), **dict.fromkeys("abc", rod)}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in "abc")
+    asked = (Arrangement(kind="row", objects=tuple("abc")),)
+    poses = arrange(assets, on, seed=0, arrangements=asked).poses
+    quats = [poses[name].quat_wxyz for name in "abc"]
+    assert [round(math.degrees(2 * math.atan2(one[3], one[0])), 6) for one in quats] == [across] * 3
+    assert [result for result in check_arranged(asked, (), assets, poses) if not result.holds] == []
+
+
+def test_what_is_in_the_middle_leaves_room_for_what_stands_before_it():
+    """A desk 0.58 m deep: half of it, less half a monitor, is less than a keyboard and its gap."""
+    assets = {"table": table(y=0.58), "a": block(0.3, 0.22, 0.4), "b": block(0.44, 0.17, 0.02)}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in "ab")
+    before = Relation(child="b", kind="in_front_of", parent="a")
+    asked = (Arrangement(kind="in_middle", objects=("a",), of=("table",)),)
+    poses = arrange(assets, (*on, before), seed=0, arrangements=asked).poses
+    assert [result for result in check_arranged(asked, (), assets, poses) if not result.holds] == []
+    assert [result for result in check_relations((before,), assets, poses) if not result.holds] == []
+
+
 def test_a_layout_without_arrangements_does_not_depend_on_them():
     """Asking for nothing, and for what the layout does anyway, give the same poses."""
     assets = {"table": table(), "mug": mug()}
