@@ -433,8 +433,8 @@ def test_slender_things_in_a_row_lie_side_by_side_where_there_is_room_across(dee
 
 
 def test_what_is_in_the_middle_leaves_room_for_what_stands_before_it():
-    """A desk 0.58 m deep: half of it, less half a monitor, is less than a keyboard and its gap."""
-    assets = {"table": table(y=0.58), "a": block(0.3, 0.22, 0.4), "b": block(0.44, 0.17, 0.02)}
+    """A desk 0.52 m deep: in front of a monitor in its very middle a keyboard would stick out too far."""
+    assets = {"table": table(y=0.52), "a": block(0.3, 0.22, 0.4), "b": block(0.44, 0.17, 0.02)}
     on = tuple(Relation(child=name, kind="on", parent="table") for name in "ab")
     before = Relation(child="b", kind="in_front_of", parent="a")
     asked = (Arrangement(kind="in_middle", objects=("a",), of=("table",)),)
