@@ -122,3 +122,28 @@ def test_what_is_against_something_leans_on_it():
     assert notes(beside) == ('not as said: "against a box"',)
     leaning = Arrangement(kind="leaning_against", objects=("mug",), of=("box",), arranged=True)
     assert notes(replace(beside, arrangements=(leaning,))) == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "told"),
+    [
+        ("A lamp, two books stacked on each other.", True),
+        ("A book stands by a lamp, on which two books lie", False),
+        ("Two books lie on a lamp.", False),
+        ("A cup and two books are on a lamp.", False),
+        ("A lamp with two books on it.", False),
+        ("From bottom to top: a lamp, two books.", False),
+    ],
+)
+def test_what_hardly_lies_there_is_named_where_no_words_say_so(prompt: str, told: bool):
+    phrases = {"lamp": "A lamp", "book 1": "two books", "book 2": "two books", "cup": "A cup"}
+    made = plan(prompt, phrases, "book 1 on lamp", "book 2 on lamp")
+    found = audited(made, find, ("table",), lambda child, kind, parent: 1.1 * (parent == "lamp")).notes
+    assert ('assumed: "two books" on "A lamp"; few things are there' in found) == told
+
+
+def test_what_a_thing_is_too_large_for_is_named_though_a_list_ends_there():
+    made = plan("A tray with a pot and a spoon on a cup", {"tray": "A tray", "cup": "a cup"}, "tray on cup")
+    for cost, told in ((1.1, False), (1.9, True)):
+        found = audited(made, find, ("table",), lambda child, kind, parent, cost=cost: cost).notes
+        assert ('assumed: "A tray" on "a cup"; few things are there' in found) == told

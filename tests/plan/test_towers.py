@@ -61,3 +61,26 @@ def test_what_is_at_the_bottom_of_a_thing_is_in_no_tower(prompt: str):
     plan = PLANNER.plan(prompt)
     assert len(plan.objects) == 3
     assert 'not understood: "the bottom"' in plan.notes
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "On the desk: a lamp, two books (one on top of the other) and a pen holder.",
+        "A desk with a lamp, two books stacked on each other, and a phone.",
+        "A desk with a lamp and two books stacked on each other.",
+        "On the desk are a lamp, two books on top of each other and a phone.",
+    ],
+)
+def test_what_is_stacked_on_each_other_is_the_likes_at_the_end_of_a_list(prompt: str):
+    edges = {(rel.child, rel.kind, rel.parent) for rel in GrammarPlanner().plan(prompt).relations}
+    assert {("book 1", "on", "desk"), ("book 2", "on", "book 1"), ("lamp", "on", "desk")} <= edges
+
+
+def test_what_is_at_each_end_is_at_those_of_the_table_and_not_of_what_is_in_its_middle():
+    plan = GrammarPlanner().plan("A chessboard in the middle of the table and a clock at each end.")
+    (ends,) = (one for one in plan.arrangements if one.kind == "at_ends")
+    assert ends.of == ("table",)
+    plan = GrammarPlanner().plan("A tray in the middle of the table and a cup at either end of it")
+    (ends,) = (one for one in plan.arrangements if one.kind == "at_ends")
+    assert ends.of == ("tray",)

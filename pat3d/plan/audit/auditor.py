@@ -56,6 +56,7 @@ from pat3d.plan.audit.storeys import heights, storeys
 from pat3d.plan.audit.subjects import misattached
 from pat3d.plan.audit.text import Find, Mention, read, singulars
 from pat3d.plan.audit.unheard import unheard
+from pat3d.plan.audit.unlikely import Cost, unlikely
 from pat3d.plan.audit.words import (
     ARTICLES,
     BREAKING,
@@ -122,18 +123,22 @@ def _without_remarks(plan: ScenePlan) -> str:
     return prompt
 
 
-def audited(plan: ScenePlan, find: Find, furniture: Collection[str] = ()) -> ScenePlan:
+def audited(
+    plan: ScenePlan, find: Find, furniture: Collection[str] = (), cost: Cost = lambda child, kind, parent: 0.0
+) -> ScenePlan:
     """`plan` with a note on everything that its prompt says on its face and the plan does not have.
 
     Args:
         plan: to be compared with its own prompt.
         find: the catalogue noun that a name means, or None.
         furniture: nouns of what stands on the floor by nature, of which nobody says where it is.
+        cost: how unlikely it is that a noun is carried so by another.
     """
     senses = _senses(plan, find)
     said = read(_without_remarks(plan), lambda name: find(name) or senses.get(name))
     auditor = _Auditor(plan, said, furniture)
-    notes = tuple(dict.fromkeys((*plan.notes, *auditor.differences())))
+    found = auditor.differences()
+    notes = tuple(dict.fromkeys((*plan.notes, *found, *unlikely(auditor, cost, found))))
     return replace(plan, notes=told_once(auditor, notes))
 
 

@@ -283,6 +283,8 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
     }.items()
     for words in phrases
 }  # fmt: skip
+for _upon in [said for said, how in EACH_OTHER.items() if how == "stack" and {"other", "another"} & {*said}]:
+    EACH_OTHER |= {("stacked", *_upon): "stack", ("piled", *_upon): "stack"}
 for _line in ("in a row", "in a line", "lined up"):
     for _way, _how in (("from left to right", "order"), ("from right to left", "reverse")):
         EACH_OTHER[tuple(f"{_line} {_way}".split())] = _how

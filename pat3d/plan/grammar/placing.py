@@ -98,7 +98,8 @@ class Placing(Forming):
             parents = owners or [item for item in implied if item not in children]
             parents = around[:1] if stood_by and {*parents} <= {*whole} else parents
             below = world.support(parents[0]) if parents and side == "ends" else None
-            if below is not None and world.is_table(below) and not world.is_table(parents[0]):
+            small = parents and not world.on_floor(parents[0]) and (below is not None and world.on_floor(below))
+            if below is not None and world.is_table(below) and (small or not world.is_table(parents[0])):
                 # "A bowl is in the middle of the table and a candle at each end": of the table.
                 parents = [below]
             if parents:

@@ -176,7 +176,7 @@ class GrammarPlanner(Sparing):
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
-        plan = audited(plan, self._nouns.resolve, lexicon.FLOOR)
+        plan = audited(plan, self._nouns.resolve, lexicon.FLOOR, self._likely.carried)
         return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *put_otherwise(world, names)))))
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.phrases import Phrase
-from pat3d.plan.grammar.sizes import slips_into
+from pat3d.plan.grammar.sizes import slips_into, too_large
 from pat3d.plan.grammar.vocabulary import Nouns
 
 USUAL = 0.34
@@ -134,6 +134,10 @@ class Plausible:
         if kind == "hangs_from" or self.is_a(parent, lexicon.HOOKED):
             return 0.2
         return self.within(child, parent) if kind == "in" else self.on(child, parent)
+
+    def carried(self, child: str, kind: str, parent: str) -> float:
+        """Of `child` being carried by `parent`, which may be too small for it."""
+        return self.held(child, kind, parent) + too_large(child, parent)
 
     def relation(self, link: Link, child: str, parent: str) -> float:
         """Of `child` LINK `parent` for a link whose child stands first; also "" for what has no noun."""

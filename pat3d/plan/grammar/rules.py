@@ -222,10 +222,13 @@ class Grammar(Listing):
         if kind != "link" or not self._link(at).inverse:
             flags |= {"placed"}
         if kind != "link":
-            if kind == "form":
-                flags |= {"formed"}
+            flags |= {"formed"} if kind == "form" else set()
             if kind == "form" and len(named.heads) == 1 and not self._several(named.heads[0]):
                 cost += 0.85
+            mutual = kind == "form" and {"other", "another"} & {*self._chunks[at].words}
+            if mutual and "finite" not in modifier.flags and len(named.heads) > 1:
+                # "A lamp and two books stacked on each other": the books are.
+                cost += 0.6 * ((self._phrase(named.heads[-1]).count or 1) > 1)
             if kind == "form" and self._chunks[at].text == "tower" and len(named.heads) != self._chunks[at].size:
                 return None
             if kind == "form" and self._some_of(modifier.start - 1) and named.heads != (modifier.start - 1,):
