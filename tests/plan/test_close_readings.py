@@ -12,7 +12,7 @@ PLANNER = GrammarPlanner()
     [
         (
             "A cutting board lies in the middle of the counter with a knife and six tomatoes on it.",
-            ("are on the counter", "on the cutting board"),
+            ("on the cutting board", "are on the counter"),
         ),
         (
             "A drill lying flat next to a battery and a charger on a workbench.",

@@ -9,7 +9,7 @@ from itertools import pairwise
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.counted_places import from_one_side
-from pat3d.plan.grammar.even_shares import counted_in_each, shared, without_shares
+from pat3d.plan.grammar.even_shares import counted_in_each, shared, shared_by_colour, without_shares
 from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
@@ -49,7 +49,7 @@ def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
     tokens = from_one_side(outnumbering(tokens, nouns), nouns)
     whole = _one_and_others(_on_the_other(_on_both(_high(_all_but(_every_but(_fractions(tokens)))))))
-    return without_shares(counted_in_each(whole, nouns))
+    return without_shares(counted_in_each(shared_by_colour(whole, nouns), nouns))
 
 
 def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -244,8 +244,25 @@ def _one_of_two(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _of_whole(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "of three cups, one is red" as "one of three cups is red"."""
+    """`tokens` with "of three cups, one is red" as "one of three cups is red", "cups, six of them," as "six cups"."""
     words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        of_them = words[at] == "," and words[at + 2 : at + 4] == ["of", "them"]
+        if not of_them or not is_number(words[at + 1]) or not tokens[at + 4].mark:
+            continue
+        ends = (
+            n + 1
+            for n in range(at - 1, -1, -1)
+            if tokens[n].mark or words[n] in FINITE | {"and", "with"} or (link_at(tokens, n) and words[n] != "of")
+        )
+        start = next(ends, 0)
+        start += words[start] == "the"
+        # "Cups and plates, four of them": of which is not told.
+        named = [] if start and words[start - 1] == "and" else words[start:at]
+        plain = named and not any(is_number(word) or word in lexicon.DETERMINERS for word in named)
+        if plain and any(singulars(word) for word in named):
+            behind = at + 4 + (words[at + 4] == ",")
+            return _of_whole([*tokens[:start], tokens[at + 1], *tokens[start:at], *tokens[behind:]])
     first = 1 + (words[1:2] == ["the"])
     if words[:1] != ["of"] or not number_of(words[min(first, len(words) - 1)]):
         return list(tokens)

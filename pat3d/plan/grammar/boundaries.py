@@ -204,7 +204,13 @@ class Boundaries:
         while not self._tokens[look].mark and self.goes_on(look) and len(words) < 5:
             words.append(self._tokens[look].text)
             look += 1
+        if self._tokens[at - len(run) - 1].text in ("a", "an") and any(map(self._plural, words)):
+            # "A cake on a stand, small plates around it"
+            return None
         return first if words and self._ends_in_noun(words) else None
+
+    def _plural(self, word: str) -> bool:
+        return bool(singulars(word)) and self._nouns.match([word]) is not None
 
     def _described_on(self, run: Sequence[Token], at: int) -> bool:
         """Whether the comma at `at` stands between modifiers of one head: "a huge, white, heart-shaped table"."""

@@ -178,6 +178,8 @@ def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
         follower = words[at + 2] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.POSSESSIVES
         if led and follower and words[at] in ("lay", "set", "spread") and words[at + 1] == "out":
             return [*tokens[: at + 1], *tokens[at + 2 :]]
+        if led and words[at : at + 2] == ["lay", "down"]:
+            return [*tokens[:at], replace(tokens[at], text="put"), *tokens[at + 1 :]]
         if not (led and follower and words[at : at + 2] == ["line", "up"]):
             continue
         end = next(n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import cast
 
@@ -252,6 +253,8 @@ class Contrast(Pronouns):
         moved = [head for one, _ in self.related for head in sorted(one) if head < at and self.known.get(head)]
         head = max((head for head in moved if self._chunks[head].named.kind == "object"), default=None)
         items = self.known[head] if head is not None else self._world.subject
+        if head is None and (left := self._but_one_ahead(at, phrase, items)):
+            return left
         if not items or any(at in one and head in one for one, _ in self.related):
             return None
         group, gone = items[0].group, {*items, *(item for step in self._world.steps for item in step.items)}
@@ -269,6 +272,15 @@ class Contrast(Pronouns):
         more = replace(group.phrase, words=phrase.words, modifiers=kept, superlative=NO_MODIFIERS, definite=True,
                        determined=True, plural=several, count=phrase.count or (None if several else 1))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
+
+    def _but_one_ahead(self, at: int, phrase: Phrase, items: Sequence[Item]) -> list[Item]:
+        """Those of `items` beside the one that is named behind chunk `at`: "stack the other two on the red one"."""
+        ahead = [self._chunks[head].named for one, other in self.related if at in one for head in other if head > at]
+        single = len(ahead) == 1 and ahead[0].definite and not ahead[0].plural and bool(ahead[0].modifiers.colours)
+        if not single or not items or len(items) != (phrase.count or 0) + 1:
+            return []
+        named = [item for item in items if colours_of(item) == ahead[0].modifiers.colours]
+        return [item for item in items if item is not (named or items)[0]]
 
     def _left_over(self, at: int, phrase: Phrase) -> list[Item]:
         """Those of which the clauses before told some apart: "the left cup is red and the other is blue"."""

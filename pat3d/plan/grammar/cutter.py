@@ -107,8 +107,10 @@ class Cutter(Asides):
         )
         of_them = follower == "of" and self._word(2) in (*lexicon.PRONOUNS, "these", "those")
         if word in ("each", "both", "all") and of_them:
-            head = "each" if word == "each" else "them"
-            phrase = Phrase(kind="pieces" if word == "each" else "pronoun", head=head, words=head, number=token.number)
+            # "Two baskets, both of which hold a pear": as "both hold a pear".
+            told = word == "each" or self._finite_at(self._at + 3)
+            head = word if told else "them"
+            phrase = Phrase(kind="pieces" if told else "pronoun", head=head, words=head, number=token.number)
             return self._add("noun", 3, phrase=phrase)
         if word == "so" and self._opens and follower in lexicon.COPULAS | lexicon.VERBS | {"do", "does"}:
             return self._so()

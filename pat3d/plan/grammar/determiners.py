@@ -20,9 +20,12 @@ def opening(tokens: Sequence[Token], at: int) -> tuple[int, int | None, dict[str
             at += 1
         elif word in lexicon.POSSESSIVES:
             flags["possessive"] = flags["definite"] = True
-        elif word == "half" and follower in ("a", "dozen"):
+        elif word == "half" and "dozen" in (follower, *(each.text for each in tokens[at + 2 : at + 3])):
             count, at = 6, at + (2 if follower == "a" else 1)
             flags["determined"] = True
+        elif word == "half" and follower in ("a", "an"):
+            # "Half a loaf": a note says that it is a whole one.
+            count = None
         elif word in ("dozen", "couple", "pair", "trio", "set") and follower == "of":
             break
         elif word in ("dozen", "hundred", "thousand") and (count is not None or flags.get("determined")):

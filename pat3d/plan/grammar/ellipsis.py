@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.cells import in_the_whole
@@ -21,6 +22,9 @@ _HARD = frozenset(
 )
 _SOFT = ("sofa", "armchair", "couch", "bed", "rug", "carpet", "plant", "potted plant", "tree", "bag", "handbag",
          "backpack", "rose", "flower", "tulip", "sunflower", "carrot", "banana")  # fmt: skip
+_ENDS = ("joint", "clause", "there")
+_SAID = ("rel", "have", "place", "verb")
+"""Chunks by which something is said of what stands before them."""
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
@@ -29,8 +33,61 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] =
 
     `known` are the phrases of what was named before them.
     """
-    told = likes_named(paralleled(_from_below(_described(_gapped(_full(chunks)))), nouns), nouns, known)
+    told = _from_below(_described(_gapped(_full(_one_more(chunks, known, nouns)))))
+    told = likes_named(paralleled(told, nouns), nouns, known)
     return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns)))
+
+
+def _one_more(chunks: Sequence[Chunk], known: Collection[Phrase], nouns: Nouns) -> list[Chunk]:
+    """`chunks` with "a cup is on the table and one is on the shelf" as "... another is on the shelf".
+
+    Where several were named it may be one of them, so that only a clause built alike tells of another: "a bowl on the
+    left holds three figs, one on the right holds a nut".
+    """
+    made = list(chunks)
+    for at in range(1, len(chunks) - 1):
+        phrase, follower = chunks[at].phrase, chunks[at + 1]
+        if phrase is None or phrase.kind != "pieces" or phrase.words.lower() != "one":
+            continue
+        if chunks[at - 1].kind not in _ENDS or follower.kind not in _SAID:
+            continue
+        before = [one.phrase for one in made[:at] if one.phrase is not None]
+        named = [one for one in (*before, *known) if one.kind == "object"]
+        several = any(one.several or one.each or one.kind in ("pieces", "items") for one in (*before, *known))
+        # "A cup and a can, one on the left": one of the two.
+        told = chunks[at - 1].kind == "there" or any(one.kind in _SAID for one in chunks[:at])
+        if not named or (several and not _does_alike(chunks, at)) or not told or _listed(chunks[:at]):
+            continue
+        if chunks[at - 1].text == "," and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2])):
+            # "A bookshelf holds a book, one on the top shelf": that book.
+            continue
+        if chunks[at - 1].text == "," and follower.kind == "have" and not follower.relation.finite:
+            # "A vase with a flower, one with red petals"
+            continue
+        beside = (one.phrase for one, place in pairwise(made[:at]) if place.kind == follower.kind == "place")
+        if (like := next((one for one in beside if one is not None and one.kind == "object"), None)) is not None:
+            # "A plate with a bun on the left and one on the right"
+            said = replace(phrase, modifiers=like.modifiers, other=True)
+            made[at] = replace(chunks[at], phrase=with_noun(said, like, nouns))
+        else:
+            made[at] = replace(chunks[at], phrase=replace(phrase, kind="pronoun", head="another", count=None))
+    return made
+
+
+def _does_alike(chunks: Sequence[Chunk], at: int) -> bool:
+    """Whether "one" at chunk `at` stands at another side than what the sentence begins with, and does the same."""
+    ours, theirs = chunks[at + 1 : at + 3], chunks[1:3]
+    first = chunks[0].phrase
+    single = first is not None and first.kind == "object" and not first.several
+    sides = len(ours) == 2 and ours[0].kind == theirs[0].kind == "place" and ours[0].text != theirs[0].text
+    verbs = [one.link for one in (*ours[1:], *theirs[1:]) if one.link is not None and one.link.finite]
+    return single and sides and len(verbs) == 2 and verbs[0] == verbs[1]
+
+
+def _listed(chunks: Sequence[Chunk]) -> bool:
+    """Whether `chunks` tell of two together, of which one may be meant: "a pen and a book are on the desk"."""
+    kinds = [one.kind for one in chunks]
+    return any(kinds[n : n + 3] == ["noun", "joint", "noun"] for n in range(len(kinds)))
 
 
 def _full(chunks: Sequence[Chunk]) -> list[Chunk]:

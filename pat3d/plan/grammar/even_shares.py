@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.number_words import counted_before, number_of
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -90,6 +92,65 @@ def without_shares(tokens: Sequence[Token]) -> list[Token]:
         if amount * few == many and placed and tokens[end].mark:
             return [*tokens[:tail], *tokens[end:]]
     return list(tokens)
+
+
+def shared_by_colour(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "put six cups on the trays: the red ones on a red tray, the blue ones on a blue tray" in full.
+
+    That is "put the three red cups on a red tray and the three blue cups on a blue tray": where they go is said twice.
+    """
+    words = [token.text for token in tokens]
+    for at in range(4, len(words) - 6):
+        stop = words.index(".", at)
+        start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
+        first = start + bool(known_verb(words[start]))
+        link = next((n for n in range(first + 1, at) if link_at(tokens, n)), 0)
+        head = link - 1 - (words[link - 1] in FINITE)
+        name = words[head] if link else ""
+        parts = _by_colour(tokens, at, stop, name) if singulars(name) and nouns.match([name]) else []
+        where = {*singulars(words[at - 1])}
+        if len(parts) < 2 or not where or not all(where & {*words[n:end]} for _, n, end in parts):
+            continue
+        total = next((number_of(words[n]) for n in range(first, head) if number_of(words[n])), 0)
+        share, more = divmod(total, len(parts))
+        verb = [replace(tokens[start], text="put")] if first > start else []
+        said: list[Token] = []
+        single = next((word for word in singulars(name) if nouns.match([word])), name)
+        for n, (colour, behind, end) in enumerate(parts):
+            one = words[colour + 1] in ("one", single) or (total > 0 and share + (n < more) == 1)
+            noun = single if one else name
+            counted = [replace(tokens[colour], text=str(share + (n < more)))] if share and not one else []
+            lead = [replace(tokens[colour], text="the")] if verb or one else []
+            finite = [] if verb else [replace(tokens[link - 1], text="is" if one else "are")]
+            joint = [replace(tokens[at], text="and", mark=False)] if said else []
+            whole = [*lead, *counted, tokens[colour], replace(tokens[colour + 1], text=noun)]
+            said += [*joint, *whole, *finite, *tokens[behind:end]]
+        return [*tokens[:start], *verb, *said, *tokens[stop:]]
+    return list(tokens)
+
+
+def _by_colour(tokens: Sequence[Token], at: int, stop: int, name: str) -> list[tuple[int, int, int]]:
+    """The colour of each "the red ones on a tray" from the mark at token `at` on, the place behind it and its end."""
+    made: list[tuple[int, int, int]] = []
+    while at < stop and (tokens[at].text in (":", ",", ";") or (made and tokens[at].text == "and")):
+        colour = at + 1 + (tokens[at + 1].text == "and")
+        colour += tokens[colour].text == "the"
+        if colour + 2 > stop:
+            return []
+        behind = colour + 2
+        told = is_colour_word(tokens[colour].text) and tokens[colour + 1].text in (
+            "ones",
+            "one",
+            name,
+            *singulars(name),
+        )
+        behind += tokens[behind].text in ("go", "goes", "are", "is") if told else 0
+        if not told or not link_at(tokens, behind):
+            return []
+        end = next(n for n in range(behind, stop + 1) if tokens[n].mark or tokens[n].text == "and")
+        made.append((colour, behind, end))
+        at = end
+    return made if at == stop else []
 
 
 def _carriers(tokens: Sequence[Token], each: int) -> int:

@@ -55,7 +55,7 @@ class Interpreter(Holding):
         self._said.clauses = {**clauses} or {0: reading.heads}
         fillings, kinds = self._fillings(facts)
         self._sides = {head: self._chunks[fact[1]].text for fact in facts if fact[0] == "side" for head in fact[2]}
-        self._said.asked = self._clause.manner is not None
+        self._said.asked, self._said.stacking = self._clause.manner is not None, self._clause.manner == "stack"
         self._said.goals = {fact[1] for fact in facts if fact[0] == "goal"}
         self._said.related = [
             (set(fact[2]), set(fact[3])) for fact in facts if fact[0] in ("rel", "have", "list", "goal", "place")
@@ -272,7 +272,8 @@ class Interpreter(Holding):
             self._relating.relate(children, link, parents)
             return
         phrase = places[0]
-        whole = link.kind in SUPPORT_KINDS or link.kind == "around"
+        fresh = all(child.group.counted and child.group not in self._said.before for child in children)
+        whole = link.kind in SUPPORT_KINDS or link.kind == "around" or (fresh and not link.inverse)
         if whole and not link.finite and list(child_heads) == [at - 1]:
             children = self._whole(child_heads[0], children)
         named = any(self._chunks[head].named.kind == "object" for head in child_heads)

@@ -36,7 +36,7 @@ def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]
             continue
         n, one = like
         whole = with_noun(replace(phrase, modifiers=measured(phrase.modifiers)), one, nouns)
-        made[at] = replace(piece, phrase=replace(whole, plural=whole.plural or piece.text.lower().endswith(" ones")))
+        made[at] = replace(piece, phrase=whole)
         if n is not None and phrase.definite:
             made[n] = replace(made[n], phrase=replace(one, modifiers=measured(one.modifiers)))
     return made
@@ -52,7 +52,7 @@ def with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:
         words = words[1:]
     found = nouns.match(words) if words != owner.said.split() else None
     noun, said = (found.noun, found.said) if found else (owner.noun, owner.said)
-    plural = phrase.count is not None and phrase.count > 1
+    plural = phrase.words.lower().endswith(" ones") if phrase.count is None else phrase.count > 1
     return replace(phrase, kind=owner.kind, noun=noun, said=said, head=owner.head, cycle=owner.cycle, plural=plural)
 
 

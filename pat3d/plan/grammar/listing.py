@@ -8,7 +8,7 @@ from pat3d.plan.grammar.judging import HEADLESS
 from pat3d.plan.grammar.links import Link
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
-_HAD_TOGETHER = 0.2
+_HAD_TOGETHER = 0.3
 """Cost of parting what is "on it" from what stands before it behind the same "with"."""
 _DANGLES = 0.4
 """Cost of what stands at the end of a clause, behind a landmark, and is not beside anything."""
@@ -111,15 +111,17 @@ class Listing(Goals):
             cost += 0.15 if "finite" not in first.flags else 0.3
         if "finite" in rest.flags and "finite" not in first.flags:
             cost += 0.4
-        if rest.joints == "&" and "finite" in first.flags - rest.flags and self._definite(rest.heads):
+        # "The red cups are on a tray and the blue ones on a plate": the place is theirs.
+        again = "placed" in rest.flags and {*map(self._noun, rest.heads[:1])} <= {*map(self._noun, first.heads)}
+        if rest.joints == "&" and "finite" in first.flags - rest.flags and self._definite(rest.heads) and not again:
             # "A ball is near the lamp and the clock": near both.
             cost += 1.2
         elif rest.joints == "&" and "finite" in first.flags - rest.flags and "placed" not in rest.flags:
             # "A book is on a sofa next to a pillow and a blanket": next to both.
             before = self._chunks[rest.start - 2]
             cost += _DANGLES * (before.kind == "rel" and before.relation.kind in LATERAL_KINDS)
-        if rest.joints == "&" and self._ends_what_is_had(first, rest):
-            # "A board lies on a bench with a knife and a lemon on it": both are on the board.
+        if mark in "&," and self._ends_what_is_had(first, rest):
+            # "A board lies on a bench with a knife and a lemon on it (and a cup beside it)": both are on the board.
             cost += _HAD_TOGETHER
         if rest.joints == "&" and self._shares_determiner(first, rest):
             # "A drill lies next to its battery and charger": it is next to both.
@@ -128,9 +130,9 @@ class Listing(Goals):
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
 
     def _ends_what_is_had(self, first: Node, rest: Node) -> bool:
-        """Whether `rest` is placed on or in "it" and stands behind what something in `first` is said to have."""
+        """Whether what `rest` begins with is placed on or in "it", behind what something in `first` is said to have."""
         had = any(fact[0] == "have" and max(fact[3]) == rest.start - 1 for fact in first.facts)
-        placed = [fact for fact in rest.facts if fact[0] == "rel" and fact[2] == rest.heads]
+        placed = [fact for fact in rest.facts if fact[0] == "rel" and fact[2] == rest.heads[: len(fact[2])]]
         return had and any(self._link(fact[1]).kind in SUPPORT_KINDS and self._is_pronoun(fact[3]) for fact in placed)
 
     def _shares_determiner(self, first: Node, rest: Node) -> bool:

@@ -44,6 +44,7 @@ def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
         _state,
         _labels,
         in_turn,
+        _in_that_order,
         _by_measure,
         _such_that,
         _alternate,
@@ -169,6 +170,21 @@ def _by_measure(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told
         end = order + 1 + (way + 1 if way and words[order + 1 + way] in _MEASURES else 0)
         if end > order + 1 or order > at + 1:
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _in_that_order(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "on the shelf, in that order, are a vase and a cup" as "... from left to right": from where is not said."""
+    for at in range(2, len(words) - 3):
+        if words[at] != "in" or words[at + 1] not in ("this", "that") or words[at + 2] != "order":
+            continue
+        told = {"from", "left", "right", ":", "first", "top", "bottom", "row", "line", "stack", "stacked"} & {*words}
+        kept = [*tokens[: at - (words[at - 1] == "," and words[at + 3] == ".")], *tokens[at + 3 :]]
+        if base_verb(words[0]) == words[0]:
+            # "Put the cup and the plate on the tray, in that order": in time.
+            return kept, [(tokens[at], tokens[at + 2])]
+        row = [] if told else [replace(tokens[at + 2], text=word) for word in ("from", "left", "to", "right")]
+        return [*tokens[:at], *row, *tokens[at + 3 :]] if row else kept, [(tokens[at], tokens[at + 2])]
     return None
 
 

@@ -25,9 +25,7 @@ def told_alike(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] 
     for at, piece in enumerate(chunks):
         if piece.phrase is not None and (like := _like(made, at, known)) is not None:
             told = replace(piece.phrase, definite=piece.phrase.definite and _told_by(piece.phrase)[0] != "other")
-            whole = with_noun(told, like, nouns)
-            several = whole.plural or piece.text.lower().endswith(" ones")
-            made[at] = replace(piece, phrase=replace(whole, plural=several))
+            made[at] = replace(piece, phrase=with_noun(told, like, nouns))
     return made
 
 

@@ -310,8 +310,8 @@ class PhraseReader:
             return replace(inner, count=number, rows=count or 2, vague=inner.count is None,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         if rows or head in lexicon.COLLECTIVES:
-            taken = {"pair": 2, "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
-            taken = 1 if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
+            taken = {"pair": 2 * (count or 1), "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
+            taken = (count or 1) if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
             taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
             if head in ("few", "handful", "lot", "lots", "plenty", "number"):
                 taken = 5 if head in ("lot", "lots", "plenty") else 3

@@ -45,6 +45,7 @@ from pat3d.plan.grammar.shorthand import known_again, out_of_brackets
 from pat3d.plan.grammar.sided_names import by_side
 from pat3d.plan.grammar.similes import similes
 from pat3d.plan.grammar.sparing import Sparing, copied
+from pat3d.plan.grammar.subkinds import subkinds
 from pat3d.plan.grammar.tails import Tails
 from pat3d.plan.grammar.talk import without_talk
 from pat3d.plan.grammar.tasks import put_otherwise, task_of
@@ -118,7 +119,8 @@ class GrammarPlanner(Sparing):
         tokens = compounds(ordinals(text, tokenise(text), self._nouns), self._nouns)
         tokens = out_of_brackets(text, tokens, self._nouns)
         tokens = in_full(known_again(tokens, self._nouns), self._nouns)
-        tokens = levels_of(by_side(worked_out(chessmen(tokens), self._nouns), self._nouns), self._nouns)
+        tokens = subkinds(worked_out(chessmen(tokens), self._nouns), self._nouns)
+        tokens = levels_of(by_side(tokens, self._nouns), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         said, aside = unaddressed(text, sentences(tokens, self._nouns), self._nouns)
         spoken, talk = without_talk(said, self._nouns)

@@ -51,6 +51,8 @@ class Pronouns:
         """Phrases of the modifier that a clause opens with: "behind it there is"."""
         self.asked = False
         """Whether the clause tells what is to be done."""
+        self.stacking = False
+        """Whether that is to stack something."""
         self.left: list[Item] = []
         """What is excepted of all that is spoken of."""
         self.goals: set[int] = set()
@@ -133,6 +135,9 @@ class Pronouns:
                     "Name the thing itself."
                 )
             candidates.append((-1.2, list(steps[-1].items)))
+        if self.stacking and not child and not plural and steps and len(steps[-1].items) == 1:
+            # "Put the red block on the mat and stack the other two on it": on the red block.
+            candidates.append((-0.8, list(steps[-1].items)))
         if child and plural and steps and steps[-1].manner == "stack":
             # "Stack the bowl on the plate and place them in the tray"
             candidates.append((-1.2, [*steps[-1].items, *steps[-1].goal]))
@@ -228,8 +233,19 @@ class Pronouns:
             # "A dog lies in front of a sofa, and a ball is on it": few things lie on a dog, but one may.
             read, other_words = (each[0].group.words for each in (best[1], about))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
+        if self.asked and not plural and not steps and (upon := self._carried(best[1])) is not None:
+            # "The tray has a fork on it. Put it on the shelf."
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}"; it may be "{upon}".')
         self.cost += min(best[0], 1.5)
         return best[1]
+
+    def _carried(self, items: Sequence[Item]) -> str | None:
+        """The words for the one thing that `items` are said to have on or in them, named behind them; None without."""
+        upon = [item for item in self._world.items() if self._world.support(item) in items]
+        named = [item.group for item in upon if len(item.group.items) == 1 and item.group not in (items[0].group,)]
+        order = self._world.groups
+        later = [group for group in named if order.index(group) > order.index(items[0].group)]
+        return later[-1].words if later else None
 
     def _is_also(self, at: int) -> bool:
         """Whether what chunk `at` ends is told of one thing more: "is also on it", "is on it, too"."""

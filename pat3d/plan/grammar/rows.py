@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import is_colour_word
@@ -17,6 +18,7 @@ from pat3d.plan.grammar.vocabulary import Nouns
 
 _HAVING = (("consists", "of"), ("consisting", "of"), ("made", "up", "of"), ("has",), ("contains",), ("holds",),
            ("containing",), ("is", "made", "of"), ("consist", "of"), ("of",))  # fmt: skip
+_SIDES = ("end", "side")
 _OPPOSITE = {("front", "back"): "in front of", ("back", "front"): "behind", ("first", "second"): "in front of"}
 """How the first row stands to the second."""
 
@@ -30,7 +32,7 @@ _ONE_EACH = (
 
 def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what stands in a row before the row."""
-    tokens = _of_two_colours(tokens)
+    tokens = _of_two_colours(_end_to_end(tokens))
     words = [token.text for token in tokens]
     colon = words.index(":") if ":" in words else 0
     if words[0] == "row" and colon and words[1].isdecimal():
@@ -54,6 +56,29 @@ def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = [replace(here[0], text=word) for word in ("a", "row", "of")]
     row = [replace(behind[0], text=word) for word in ("is", *relation.split(), "a", "row", "of")]
     return [*made, *here, *row, *behind, tokens[-1]]
+
+
+def _end_to_end(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "from one end to the other" as "from left to right", and "of the bench" in it as "on the bench".
+
+    Where something is to be done the other is that end: "move the cup from one end of the bench to the other".
+    """
+    words = [token.text for token in tokens]
+    at = next((n for n in range(len(words) - 6) if words[n : n + 2] == ["from", "one"] and words[n + 2] in _SIDES), -1)
+    to = next((n for n in range(at + 3, min(at + 9, len(words) - 2)) if words[n : n + 3] == ["to", "the", "other"]), 0)
+    if at < 0 or not to or any(token.mark for token in tokens[at:to]):
+        return tokens
+    again = words[to + 3] == words[at + 2]
+    if known_verb(words[0]):
+        other = [] if again else [replace(tokens[to + 2], text=words[at + 2])]
+        return [*tokens[: to + 3], *other, *tokens[to + 3 :]]
+    place = list(tokens[at + 3 : to])
+    if not place or place[-1].text in words[:at] or place[-1].text in lexicon.PRONOUNS:
+        place = []
+    else:
+        place[0] = replace(place[0], text="on")
+    row = [replace(tokens[at], text=word) for word in ("from", "left", "to", "right")]
+    return [*tokens[:at], *place, *row, *tokens[to + 3 + again :]]
 
 
 def _of_two_colours(tokens: Sequence[Token]) -> list[Token]:

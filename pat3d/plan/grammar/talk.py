@@ -21,17 +21,43 @@ _BEING = frozenset({"am", "are", "is", "'s", "'re", "i'm", "we're", "feel", "fee
 _WITHOUT_ARTICLE = frozenset({"having", "drinking", "eating", "serving", "making"})
 _TIMES = frozenset({"today", "tomorrow", "tonight", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday",
     "sunday", "exam", "interview"})  # fmt: skip
+_HEAPS = frozenset({"stuff", "clutter", "mess", "salad", "groceries", "ingredients", "supplies"})
+"""Words for several things that are no meal."""
 _REFERRING = lexicon.PRONOUNS | {"one", "ones", "this", "that", "these", "those"}
 
 
 def without_talk(told: Sequence[list[Token]], nouns: Nouns) -> tuple[list[list[Token]], list[tuple[Token, Token]]]:
-    """The sentences `told` without those before the first that names a thing, and the ends of each left out."""
+    """The sentences `told` without those before the first that names a thing, and the ends of each left out.
+
+    So is the heading of "Tea for two: a pot and two cups", behind which a list says what is there.
+    """
     talk: list[tuple[Token, Token]] = []
     for sentence, follower in zip(told, told[1:], strict=False):
         if not (_is_talk(sentence, nouns) and _names_something(follower, nouns)):
             break
         talk.append((sentence[0], sentence[-2]))
-    return list(told[len(talk) :]), talk
+    kept = list(told[len(talk) :])
+    for at, sentence in enumerate(kept):
+        if colon := _heading(sentence):
+            talk.append((sentence[0], sentence[colon - 1]))
+            kept[at] = sentence[colon + 1 :]
+    return kept, talk
+
+
+def _heading(sentence: Sequence[Token]) -> int:
+    """The colon behind the meal or the drink that `sentence` begins with, for whoever it is; 0 without.
+
+    "Tea for two: a cup each" says how many there are.
+    """
+    words = [token.text for token in sentence]
+    colon = words.index(":") if ":" in words else 0
+    head = int(words[0] in ("a", "an", "the", "our", "my"))
+    if colon <= head:
+        return 0
+    served = words[head] in lexicon.MEALS - _HEAPS or (words[head] in lexicon.SUBSTANCES and not head)
+    shared = {"each", "every", "apiece", "per", "both"} & {*words[colon:]}
+    plain = colon == head + 1 or (words[head + 1] == "for" and colon < head + 5)
+    return colon if served and plain and not shared and colon < len(words) - 2 else 0
 
 
 def _is_talk(sentence: Sequence[Token], nouns: Nouns) -> bool:
