@@ -24,10 +24,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from benchmarks.composing.arranged import arrangement, posture
 from benchmarks.composing.asked import instruction
-from benchmarks.composing.meaning import Difference, Meaning, differences
+from benchmarks.composing.clauses import clauses
+from benchmarks.composing.compared import positions
+from benchmarks.composing.meaning import STEPS, Difference, Meaning, differences
+from benchmarks.composing.mixed import mixed
+from benchmarks.composing.nested import nested
 from benchmarks.composing.parallel import several
 from benchmarks.composing.scenes import contents, describe, groups, multi
+from benchmarks.composing.shares import shares
 from benchmarks.composing.singled import reference
+from benchmarks.composing.steps import steps
+from benchmarks.composing.terse import terse
 from benchmarks.composing.wording import Draw
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
@@ -36,6 +43,8 @@ from pat3d.plan.scene_plan import ScenePlan
 FAMILIES: dict[str, Callable[[Draw], str]] = {
     "groups": groups, "describe": describe, "several": several, "multi": multi, "posture": posture,
     "arrangement": arrangement, "contents": contents, "instruction": instruction, "reference": reference,
+    "nested": nested, "shares": shares, "clauses": clauses, "mixed": mixed, "terse": terse, "steps": steps,
+    "positions": positions,
 }  # fmt: skip
 VERDICTS = ("right", "right with notes", "silently wrong", "refused")
 
@@ -65,7 +74,8 @@ def judge(planner: GrammarPlanner, text: str, meaning: Meaning) -> Judged:
     except PromptError as error:
         return Judged(text=text, verdict="refused", refusal=str(error))
     wrong = differences(meaning, plan)
-    notes = (*plan.notes, *plan.set_aside)
+    # That there are several steps says nothing of a step that is wrong.
+    notes = tuple(note for note in (*plan.notes, *plan.set_aside) if STEPS not in note)
     silent = [each for each in wrong if not any(names(note, each, text, meaning) for note in notes)]
     verdict = "silently wrong" if silent else "right with notes" if wrong or plan.notes else "right"
     said = tuple(f"{'' if each in silent else '(noted) '}{each.said}" for each in wrong)

@@ -14,7 +14,9 @@ from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 GROUND = "the ground"
 _TURNED = {"right_of": "left_of", "behind": "in_front_of"}
 _SUPPORTS = frozenset({"on", "in", "hangs_from"})
-_STEPS = 5000
+STEPS = "of which the environment has one at a time: "
+"""How the note begins that lists several tasks."""
+_PAIRINGS = 5000
 """Pairings tried before things are taken to be told apart by their qualities alone."""
 
 
@@ -66,10 +68,14 @@ class Meaning:
     """Of what nobody says what carries it."""
     rows: list[tuple[frozenset[str], tuple[Thing, ...]]] = field(default_factory=list)
     arrangements: list[tuple[str, frozenset[Thing], frozenset[Thing]]] = field(default_factory=list)
+    far: list[tuple[Thing, Thing]] = field(default_factory=list)
+    """What is said to be farthest from what, which a plan may keep beside the order of the row."""
     postures: dict[Thing, str] = field(default_factory=dict)
     task: tuple[str, ...] | None = None
     """Kinds of task any of which is right; empty for what no task does."""
     of_task: list[Thing] = field(default_factory=list)
+    steps: list[tuple[list[str], list[Thing]]] = field(default_factory=list)
+    """Several tasks, in order: kinds any of which is right, and what each is about."""
     words: set[str] = field(default_factory=set)
     """Words that say how things belong together ("respectively"): a note that quotes one names what differs."""
 
@@ -106,7 +112,7 @@ def differences(meaning: Meaning, plan: ScenePlan) -> list[Difference]:
         found = _facts(meaning, plan, pairing)
         if best is None or len(found) < len(best):
             best = found
-        if not best or number > _STEPS:
+        if not best or number > _PAIRINGS:
             break
     return best or []
 
@@ -124,7 +130,11 @@ def _things(meaning: Meaning, plan: ScenePlan) -> list[Difference]:
     for thing in missing:
         words = tuple(word for word in (thing.colour, thing.material, thing.size) if word)
         wrong.append(Difference(f"lacks {thing.label()}", (thing.noun.word,), words))
-    return wrong + [Difference(f"adds {obj.name}", (obj.noun,)) for obj in left]
+    for obj in left:
+        # Where a note names the red of a cup that lacks it, the cup without it is no further difference.
+        words = tuple(word for each in wrong for word in each.words if obj.noun in each.nouns)
+        wrong.append(Difference(f"adds {obj.name}", (obj.noun,), words))
+    return wrong
 
 
 def _pairings(meaning: Meaning, plan: ScenePlan) -> Iterator[dict[str, Thing]]:
@@ -256,7 +266,10 @@ def _arranged(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing], t
         if kind != "circle" or (thing, of) not in around:
             difference = f"lacks {thing.label()} {kind} {_listed(of)}"
             wrong.append(Difference(difference, (thing.noun.word,), (kind.split("_")[-1],)))
+    far = {(thing, frozenset((of,))) for thing, of in meaning.far}
     for kind, thing, of in found - wanted:
+        if kind == "far_from" and (thing, of) in far:
+            continue
         if kind != "row" or not _is_shelved(meaning, thing):
             wrong.append(Difference(f"adds {thing.label()} {kind} {_listed(of)}", (thing.noun.word,)))
     return wrong
@@ -269,6 +282,8 @@ def _is_shelved(meaning: Meaning, thing: Thing) -> bool:
 
 
 def _task(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> list[Difference]:
+    if meaning.steps:
+        return _steps(meaning, plan, pairing)
     nouns = tuple(dict.fromkeys(thing.noun.word for thing in meaning.of_task))
     if plan.task is None:
         return [Difference("no task", nouns, ("task",))] if meaning.task else []
@@ -278,6 +293,18 @@ def _task(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> li
     if kind in meaning.task and [pairing.get(name) for name in names] == meaning.of_task:
         return []
     return [Difference(f"task {plan.task} for {meaning.task} {_listed(meaning.of_task)}", nouns, ("task",))]
+
+
+def _steps(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> list[Difference]:
+    """How the tasks that a note lists, where a plan has no single one, differ from the steps that are meant."""
+    told = next((note.partition(STEPS)[2] for note in plan.notes if STEPS in note), "")
+    found = [step.split(":") for step in told.rstrip(".").split(", ")]
+    right = len(found) == len(meaning.steps) and all(
+        kind in kinds and [pairing.get(name) for name in names] == things
+        for (kind, *names), (kinds, things) in zip(found, meaning.steps, strict=True)
+    )
+    nouns = tuple(dict.fromkeys(thing.noun.word for _, things in meaning.steps for thing in things))
+    return [] if right else [Difference(f"steps {told or plan.task}", nouns, ("task",))]
 
 
 def _listed(things: Iterable[Thing]) -> str:

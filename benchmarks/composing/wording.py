@@ -95,6 +95,11 @@ def sentence(words: str, stop: str = ".") -> str:
     return f"{words[0].upper()}{words[1:]}{stop}"
 
 
+def within(holder: Group) -> str:
+    """The preposition for what `holder` carries."""
+    return "in" if holder.one.noun.word in FITS else "on"
+
+
 @dataclass
 class Draw:
     """What one sentence draws from: random numbers, and the nouns that it has already."""

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.end_states import done_at_last
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.measures import is_measure
 from pat3d.plan.grammar.same_colour import in_one_way
@@ -51,10 +52,11 @@ def plainly_asked(told: list[list[Token]]) -> list[list[Token]]:
     """The sentences `told` with what is asked as an instruction, and what that takes for granted before it."""
     made: list[list[Token]] = []
     for sentence in told:
-        sentence = _rid(_nothing_there(sentence))
+        told_before = [token.text for each in made for token in each]
+        sentence = done_at_last(_before_that(_rid(_nothing_there(sentence))), told_before)
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
         plain = _inside(_so_that(_let(_got(_lowered(_emptied(_making_room(_able(_politely(plain)))))))))
-        piled = any(token.text in _PILES for each in made for token in each)
+        piled = any(word in _PILES for word in told_before)
         for checked in _checked(plain):
             for each in _from_stack(checked, piled=piled):
                 made += _all_but(each)
@@ -180,6 +182,13 @@ def _rid(sentence: list[Token]) -> list[Token]:
     if at < 0:
         return sentence
     return [*sentence[:at], replace(sentence[at], text="discard", end=sentence[at + 2].end), *sentence[at + 3 :]]
+
+
+def _before_that(sentence: list[Token]) -> list[Token]:
+    """Read "before you put the fig in the box, ..." as "before putting the fig in the box, ...": not there yet."""
+    words = [token.text for token in sentence]
+    deed = words[:2] == ["before", "you"] and len(words) > 4 and base_verb(words[2]) == words[2]
+    return [sentence[0], *sentence[2:]] if deed and words[3] in _LEADS else sentence
 
 
 def _nothing_there(sentence: list[Token]) -> list[Token]:

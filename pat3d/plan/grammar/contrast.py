@@ -41,12 +41,25 @@ class Contrast(Pronouns):
             return True
         if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
             return True
+        if phrase.definite and any(self._is_just_that(other, group, phrase) for other in self._world.groups):
+            return True
         if not group.phrase.definite or group not in self._world.groups[self._world.settled :]:
             return False
         names = {phrase.said or phrase.head, group.said}
         part = names & (lexicon.STORAGE_PARTS | lexicon.DETACHED | lexicon.DRAWERS) or phrase.part or group.phrase.part
         renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
         return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
+
+    def _is_just_that(self, other: Group, group: Group, phrase: Phrase) -> bool:
+        """Whether `other` is said to be of the size or material of `phrase`, and `group` of none.
+
+        "The large comb" after "a large comb and a comb" is the first.
+        """
+        if other is group or other.noun != phrase.noun or other.replaced:
+            return False
+        said, ours, theirs = phrase.modifiers, group.modifiers, other.modifiers
+        size = said.size_word == theirs.size_word != "" and not ours.size_word
+        return size or (said.material is not None and said.material == theirs.material and not ours.material)
 
     def _listed_apart(self, at: int, group: Group, phrase: Phrase) -> bool:
         """Whether chunk `at` is listed with a thing of `group` and told from it: "the red cup and the tall cup"."""

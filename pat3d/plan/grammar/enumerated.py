@@ -15,6 +15,7 @@ from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.number_words import numeral
+from pat3d.plan.grammar.set_off_shares import by_share
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _BOTTLED = frozenset({"ketchup", "mustard", "mayonnaise", "vinegar"})
@@ -35,7 +36,8 @@ Item = list[Token]
 
 def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
-    tokens = _all_alike(_with_heads(_set_off_colours(_apposed(list(tokens), nouns)), nouns))
+    told = _set_off_colours(_apposed(by_share(text, tokens, nouns), nouns))
+    tokens = _all_alike(_with_heads(told, nouns))
     return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
 
 

@@ -14,6 +14,7 @@ from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.addressed import unaddressed
 from pat3d.plan.grammar.amounts import worked_out
 from pat3d.plan.grammar.attached import attached_higher
+from pat3d.plan.grammar.carried_clauses import of_the_carried
 from pat3d.plan.grammar.chunks import trimmed
 from pat3d.plan.grammar.compounds import compounds
 from pat3d.plan.grammar.contradictions import refuse_both_sides
@@ -32,6 +33,7 @@ from pat3d.plan.grammar.lexing import Span, Token, normalise, singulars, tokenis
 from pat3d.plan.grammar.list_frames import listed_plainly
 from pat3d.plan.grammar.manners import without_manners
 from pat3d.plan.grammar.names import catalogue_names
+from pat3d.plan.grammar.note_items import each_at_its_place
 from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
 from pat3d.plan.grammar.paraphrase import plainer
@@ -44,6 +46,7 @@ from pat3d.plan.grammar.sentences import check_language, sentences
 from pat3d.plan.grammar.shorthand import known_again, out_of_brackets
 from pat3d.plan.grammar.sided_names import by_side
 from pat3d.plan.grammar.similes import similes
+from pat3d.plan.grammar.sized_names import by_size
 from pat3d.plan.grammar.sparing import Sparing, copied
 from pat3d.plan.grammar.subkinds import subkinds
 from pat3d.plan.grammar.tails import Tails
@@ -51,6 +54,7 @@ from pat3d.plan.grammar.talk import without_talk
 from pat3d.plan.grammar.tasks import put_otherwise, task_of
 from pat3d.plan.grammar.terse import in_full
 from pat3d.plan.grammar.tiers import levels_of
+from pat3d.plan.grammar.told_by_rank import by_rank
 from pat3d.plan.grammar.variants import varied
 from pat3d.plan.grammar.vocabulary import Nouns, Vocabulary
 from pat3d.plan.grammar.world import World
@@ -117,10 +121,11 @@ class GrammarPlanner(Sparing):
         text = normalise(prompt)
         check_language(text)
         tokens = compounds(ordinals(text, tokenise(text), self._nouns), self._nouns)
-        tokens = out_of_brackets(text, tokens, self._nouns)
+        tokens = out_of_brackets(text, each_at_its_place(text, tokens, self._nouns), self._nouns)
         tokens = in_full(known_again(tokens, self._nouns), self._nouns)
         tokens = subkinds(worked_out(chessmen(tokens), self._nouns), self._nouns)
-        tokens = levels_of(by_side(tokens, self._nouns), self._nouns)
+        tokens = by_size(by_side(tokens, self._nouns), self._nouns)
+        tokens = levels_of(by_rank(of_the_carried(tokens, self._nouns), self._nouns), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         said, aside = unaddressed(text, sentences(tokens, self._nouns), self._nouns)
         spoken, talk = without_talk(said, self._nouns)

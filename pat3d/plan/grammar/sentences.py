@@ -31,6 +31,10 @@ _LADEN = frozenset({
 """What a table is when the things that are told of next stand on it."""
 
 
+_LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
+"""What is left when some of several were told of: "the rest are empty"."""
+
+
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
     tokens = _contents(so_that(told_plainly(for_guests(tokens))), nouns)
@@ -51,7 +55,7 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
         clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
         told = token.text == "," and any(each.text in FINITE for each in made[-1])
         begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
-        begins = begins or (_tells_state(tokens, at, nouns) and any(_holds(each) for each in made[-1]))
+        begins = begins or ((_tells_state(tokens, at, nouns) or _of_another(tokens, at)) and any(map(_holds, made[-1])))
         made[-1].append(replace(token, text=".", mark=True) if begins else token)
         if token.text == "." or begins:
             made.append([])
@@ -86,6 +90,15 @@ def _holds(token: Token) -> bool:
     return link is not None and link.finite and link.inverse
 
 
+def _of_another(tokens: Sequence[Token], at: int) -> bool:
+    """Whether "another holds" follows a comma or "and" at token `at`: what the one before holds is no such other."""
+    first = at + 1 + (tokens[at].text == "," and tokens[min(at + 1, len(tokens) - 1)].text == "and")
+    words = [token.text for token in tokens[first : first + 4]]
+    verb = 1 + (words[1:2] == ["one"])
+    told = tokens[at].text in (",", "and") and words[:1] == ["another"] and len(words) > verb
+    return told and _holds(tokens[first + verb])
+
+
 def _tells_state(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     """Whether "the right box is empty" follows a comma or "and" at token `at`."""
     first = at + 1 + (tokens[at].text == "," and tokens[at + 1].text in ("and", "but", "while"))
@@ -93,7 +106,8 @@ def _tells_state(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     verb = next((n for n, word in enumerate(words) if word in ("is", "are")), 0)
     if tokens[at].text not in (",", "and", "but", "while") or verb < 2 or verb > len(words) - 3:
         return False
-    named = words[0] in lexicon.DETERMINERS and nouns.match([words[verb - 1]]) is not None
+    rest = words[0] == "the" and words[1] in _LEFT
+    named = words[0] in lexicon.DETERMINERS and (rest or nouns.match([words[verb - 1]]) is not None)
     plain = not any(tokens[n].mark or link_at(tokens, n) for n in range(first, first + verb))
     state = words[verb + 1] == "empty" or is_colour_word(words[verb + 1])
     return named and plain and state and tokens[first + verb + 2].mark

@@ -17,6 +17,7 @@ _GOING = frozenset({"put", "place", "set", "lay", "stand", "move", "keep", "leav
 
 def by_side(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the lemon on the left" as "the left lemon", where several lemons were named before."""
+    tokens = _at_ends(tokens, nouns)
     words = [token.text for token in tokens]
     made, at = list[Token](), 0
     while at < len(tokens):
@@ -33,6 +34,25 @@ def by_side(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         else:
             made.append(tokens[at])
             at += 1
+    return made
+
+
+def _at_ends(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the cup at the right end" as "the cup on the right"."""
+    made: list[Token] = []
+    words = [token.text for token in tokens]
+    for at, token in enumerate(tokens):
+        side = words[at - 1] in ("left", "right") and words[at - 3 : at - 1] == ["at", "the"] if at > 4 else False
+        named = (
+            side
+            and "the" in words[max(at - 7, 0) : at - 3]
+            and (words[at - 4] == "one" or nouns.match([words[at - 4]]))
+        )
+        if token.text == "end" and named and words[at + 1 : at + 2] != ["of"]:
+            made[-3] = replace(made[-3], text="on")
+            made[-1] = replace(made[-1], end=token.end)
+        else:
+            made.append(token)
     return made
 
 

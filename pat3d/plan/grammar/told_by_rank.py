@@ -1,0 +1,164 @@
+"""Which of those that a sentence before counted: by rank, from left to right, from front to back, by what is nearest.
+
+Three boxes in a row: "from left to right they hold a fig, a pen and a book" tells of each box what it holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.number_words import ORDINALS, number_of
+from pat3d.plan.grammar.vocabulary import Nouns
+
+_HOLDING = {"hold": "holds", "contain": "contains", "carry": "carries"}
+_BEHIND, _BEFORE = ["one", "behind", "the", "other"], ["one", "in", "front", "of", "the", "other"]
+_ENDS = {
+    "front": (("at", "the", "front"), ("in", "the", "front"), ("in", "front")),
+    "back": (("at", "the", "back"), ("in", "the", "back"), ("at", "the", "rear"), ("behind", "it"), ("behind",)),
+}
+_NEAR = (("nearest", "to"), ("nearest",), ("closest", "to"), ("farthest", "from"), ("furthest", "from"))
+
+
+def by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with those that were counted in a sentence before told by the words for their ranks."""
+    told = _another_holds(_front_and_back(tokens))
+    return _nearest(_in_turn(_named(told, nouns), nouns), nouns)
+
+
+def _counted(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str] | None:
+    """How many of what the sentence that ends at `stop` counts, where that is one kind of thing; or None."""
+    start = next((n + 1 for n in range(stop - 1, -1, -1) if words[n] == "."), 0)
+    found: list[tuple[int, str]] = []
+    for at in range(start, stop):
+        if number_of(words[at]) < 2:
+            continue
+        name = at + 1
+        while name < stop and is_modifier(words[name]):
+            name += 1
+        match = next((one for n in (3, 2, 1) if (one := nouns.match(words[name : name + n]))), None)
+        if match is not None and match.plural:
+            found.append((number_of(words[at]), match.said))
+    return found[0] if len(found) == 1 else None
+
+
+def _front_and_back(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "one in front of the other" as "one behind the other", and its "one in front" as the front one."""
+    words = [token.text for token in tokens]
+    at = next((n for n in range(len(words)) if words[n : n + 6] == _BEFORE), -1)
+    made = list(tokens)
+    if at >= 0:
+        made[at + 1 : at + 4] = [replace(tokens[at + 1], text="behind", end=tokens[at + 3].end)]
+        words = [token.text for token in made]
+    first = next((n for n in range(len(words)) if words[n : n + 4] == _BEHIND), len(words))
+    at = first + 4
+    while at < len(made) - 2:
+        words = [token.text for token in made]
+        if words[at : at + 2] == ["the", "one"] or (words[at : at + 2] == ["the", "rear"]):
+            rear = words[at + 1] == "rear"
+            told = next(((side, len(said)) for side, each in _ENDS.items() for said in each
+                         if tuple(words[at + 2 : at + 2 + len(said)]) == said), None)  # fmt: skip
+            behind = at + 2 + (told[1] if told else 0)
+            if rear:
+                made[at + 1] = replace(made[at + 1], text="back")
+            elif told and (words[behind] in lexicon.COPULAS or is_modifier(words[behind]) or words[behind] == "holds"):
+                made[at + 1 : behind] = [replace(made[at + 1], text=told[0]), replace(made[behind - 1], text="one")]
+        at += 1
+    return made
+
+
+def _another_holds(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "one holds a fig and another a pen" as "one holds a fig and another holds a pen"."""
+    made: list[Token] = []
+    words = [token.text for token in tokens]
+    for at, token in enumerate(tokens):
+        made.append(token)
+        end = at - (token.text == "one")
+        if words[end] != "another" or end < 4 or words[end - 1] not in (",", "and") or at + 1 >= len(words):
+            continue
+        start = next((n + 1 for n in range(end, -1, -1) if words[n] == "."), 0)
+        verb = next((n for n in range(start, end) if words[n] in _HOLDING.values()), 0)
+        if words[start] == "one" and verb and words[at + 1] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() - {"one"}:
+            made.append(replace(tokens[verb], start=token.end, end=token.end))
+    return made
+
+
+def _named(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a desk holds two boxes. The first holds a fig" as "... The first box holds a fig"."""
+    made: list[Token] = []
+    words = [token.text for token in tokens]
+    for at, token in enumerate(tokens):
+        made.append(token)
+        stop = next((n for n in range(at, 0, -1) if words[n] == "."), 0)
+        ranked = token.text in ORDINALS and words[at - 1] == "the" and at + 1 < len(words) and stop
+        if not ranked or (words[stop + 1 : stop + 3] not in (["the", "first"],)):
+            continue
+        start = next((n + 1 for n in range(stop - 1, -1, -1) if words[n] == "."), 0)
+        held = {"holds", "carries", "has"} & {*words[start:stop]}
+        counted = _counted(words, stop, nouns) if held else None
+        follows = words[at + 1] in _HOLDING.values() or words[at + 1] in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
+        if counted is not None and follows:
+            made += [replace(token, text=word) for word in counted[1].split()]
+    return made
+
+
+def _in_turn(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "from left to right they hold a fig and a pen" as "the first box holds a fig, the second a pen"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 7):
+        if words[at : at + 4] != ["from", "left", "to", "right"] or words[at - 1] != ".":
+            continue
+        they = at + 4 + (words[at + 4] == ",")
+        if words[they] != "they" or words[they + 1] not in _HOLDING:
+            continue
+        end = next(n for n in range(they, len(words)) if words[n] == ".")
+        items: list[list[Token]] = [[]]
+        for token in tokens[they + 2 : end]:
+            if token.text in (",", "and"):
+                items.append([])
+            else:
+                items[-1].append(token)
+        items = [item for item in items if item]
+        counted = _counted(words, at - 1, nouns)
+        if counted is None or len(items) != counted[0] or counted[0] > len(ORDINALS):
+            continue
+        made: list[Token] = []
+        for n, item in enumerate(items):
+            joint = replace(tokens[they], text=",", mark=True)
+            lead = ("the", ORDINALS[n], *counted[1].split(), _HOLDING[words[they + 1]])
+            made += [*([joint] if n else []), *(replace(item[0], text=word, end=item[0].start) for word in lead), *item]
+        return [*tokens[:at], *made, *tokens[end:]]
+    return list(tokens)
+
+
+def _nearest(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a jar is left of a row of three cups. The one nearest the jar" as "... The leftmost one"."""
+    words = [token.text for token in tokens]
+    row = next((n for n in range(4, len(words) - 3) if words[n : n + 3] == ["a", "row", "of"]
+                and words[n - 2] in ("left", "right") and words[n - 1] == "of"), 0)  # fmt: skip
+    stop = next((n for n in range(row, len(words)) if words[n] == "."), 0) if row else 0
+    mark = next((n for n in range(row) if nouns.match([words[n]]) and words[n + 1] in lexicon.STANDING), 0)
+    counted = _counted(words, stop, nouns) if stop and mark else None
+    if counted is None:
+        return list(tokens)
+    side = words[row - 2]
+    ends = {"n": f"{side}most", "c": f"{side}most", "f": "rightmost" if side == "left" else "leftmost"}
+    made = list(tokens[:stop])
+    at = stop
+    while at < len(tokens):
+        name = words[at + 1 : at + 2] in ([], ["one"]) or words[at + 1] in (counted[1], *singulars(counted[1]))
+        size = next((len(said) for said in _NEAR if tuple(words[at + 2 : at + 2 + len(said)]) == said), 0)
+        to = at + 2 + size
+        of = 1 if words[to : to + 1] == ["it"] else 0
+        if words[to : to + 1] == ["the"]:
+            of = next((n for n in (2, 3, 4) if words[to + n - 1 : to + n] == [words[mark]]), 0)
+        if words[at] == "the" and name and size and of:
+            made += [tokens[at], replace(tokens[at + 2], text=ends[words[at + 2][0]]), tokens[at + 1]]
+            at = to + of
+        else:
+            made.append(tokens[at])
+            at += 1
+    return made
