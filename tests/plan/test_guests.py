@@ -104,3 +104,18 @@ def test_it_may_be_the_tray_or_the_cup():
 
 def test_a_side_at_the_end_of_a_sentence_is_read():
     assert ("cup", "left_of", "box") in _edges("A box with a cup on its left and a lamp with a pen on its right")
+
+
+@pytest.mark.parametrize(
+    ("prompt", "edge"),
+    [
+        ("On the table is a plate. On it are two eggs.", ("egg 1", "on", "plate")),
+        ("On a desk is a tray. On it is a mug.", ("mug", "on", "tray")),
+        ("In the crate is a bowl. In it is an egg.", ("egg", "in", "bowl")),
+        ("On a desk is a laptop. On it is a mug.", ("mug", "on", "desk")),
+        ("On the table is a bowl. On it is also a cup.", ("cup", "on", "table")),
+        ("Behind the sofa: a lamp. In front of it: a rug.", ("rug", "in_front_of", "sofa")),
+    ],
+)
+def test_it_is_what_holds_things_before_what_that_stands_on(prompt: str, edge: tuple[str, str, str]):
+    assert edge in _edges(prompt)

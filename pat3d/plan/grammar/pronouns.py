@@ -145,7 +145,13 @@ class Pronouns:
             # "Behind the sofa: a lamp. In front of it: a rug."; "Left of the sofa is a lamp. In front of it is a rug."
             said = [edge.kind for edge in self._world.laterals if edge.parent in world_front]
             turned = link is None or link.kind not in LATERAL_KINDS or not said or OPPOSITE.get(said[-1]) == link.kind
-            candidates.append((-0.4 if turned else 0.05, world_front))
+            about = next((each for each in before if each), [])
+            if link is not None and link.kind in SUPPORT_KINDS and about and not (child or self._is_also(at)):
+                # "On the table is a plate. On it are two eggs": on the plate; but "is a laptop. On it is a mug".
+                bears = self._world.is_a(about[0], lexicon.DISHES, lexicon.HOLLOW)
+                candidates.append((0.25 if bears else -0.4, world_front))
+            else:
+                candidates.append((-0.4 if turned else 0.05, world_front))
         if self._relating.landmark[0] and not near and not self._comes_later(self._relating.landmark[0], at):
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values() and link.manner != "between"
