@@ -96,6 +96,19 @@ def test_what_stands_beside_it_in_a_list(prompt: str, edges: set[tuple[str, str,
     assert {parent for _, kind, parent in made if kind == "in_front_of"} == landmarks
 
 
+@pytest.mark.parametrize(
+    ("prompt", "edges"),
+    [
+        ("A teddy bear sits on the bed between two pillows, wearing a hat.", {("hat", "on", "teddy bear")}),
+        ("A microscope on a bench with a rack of six test tubes to its right and a beaker to its left.",
+         {("test tube 1", "in", "test tube rack"), ("test tube rack", "right_of", "microscope"),
+          ("beaker", "left_of", "microscope")}),
+    ],
+)  # fmt: skip
+def test_who_wears_something_and_what_a_rack_of_tubes_stands_beside(prompt: str, edges: set[tuple[str, str, str]]):
+    assert edges <= _edges(prompt)
+
+
 def test_it_may_be_the_tray_or_the_cup():
     notes = PLANNER.plan("A tray with a cup and a spoon beside it").notes
     assert any('it may be "a cup"' in note for note in notes)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.judging import HEADLESS, Judging
-from pat3d.plan.grammar.lexicon import DISHES, LEVEL, ON_RIMS, SLENDER
+from pat3d.plan.grammar.lexicon import DISHES, FIGURES, LEVEL, ON_RIMS, SLENDER
 from pat3d.plan.grammar.links import Link
 from pat3d.plan.grammar.plausible import USUAL
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -95,7 +95,10 @@ class Having(Judging):
             if fact[0] == "place" and fact[2] == (fact[1] - 1,) and {"its", "their"} & {*self._chunks[fact[1]].words}
         }  # fmt: skip
         # "each with a fork to its left and a knife to its right": of the same plate.
-        cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys())
+        cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys() and link.manner != "of")
+        wears = self._chunks[at].words[0] == "wearing"
+        # "A bear sits between two pillows, wearing a hat": the bear does.
+        cost += 0.8 * (wears and not self._likely.is_a(self._noun(owners[0]), FIGURES))
         ends = modifier.joints == ";" or (modifier.joints.endswith(";") and placed == {*modifier.heads[:-1]})
         if ends and self._phrase(owners[0]).head == "each":
             # "two plates, each with a fork to its left, and two glasses": the glasses are on the table.
