@@ -253,7 +253,7 @@ stacked piled lined seated found contains holding holds filled full topped surro
 """
 _DEEDS = """
 moved returned brought carried unload empty organize sort select identify remove retrieve return pack gather clean
-bring drop add give turn complete
+bring drop add give turn complete raise prepare ends finish finished done
 put place pick take move grab grasp lift stack transfer fetch insert push slide carry get hold use using arm arms hand
 robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
 arrange load collect toss chuck slap plop pop lob fling hurl gather sweep shove nudge deposit stow stash dump cover seal

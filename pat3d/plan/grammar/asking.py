@@ -7,6 +7,7 @@ everything else in the box".
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
@@ -15,7 +16,10 @@ from pat3d.plan.grammar.end_states import done_at_last
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.measures import is_measure
 from pat3d.plan.grammar.same_colour import in_one_way
+from pat3d.plan.grammar.taken_from import from_side, stack_of
+from pat3d.plan.grammar.two_arms import by_the_robot, for_each_arm
 from pat3d.plan.grammar.unmade import base_verb
+from pat3d.plan.grammar.vocabulary import Nouns
 
 _LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES
 _GREETING = lexicon.GREETINGS | {"there", "good", "morning"}
@@ -48,15 +52,23 @@ _LEAVING = frozenset({"from", "off", "out", "of", "with"})
 _STANDING = frozenset({"lean", "lie", "hang", "rest", "sit"})
 
 
-def plainly_asked(told: list[list[Token]]) -> list[list[Token]]:
+def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
     """The sentences `told` with what is asked as an instruction, and what that takes for granted before it."""
     made: list[list[Token]] = []
     for sentence in told:
         told_before = [token.text for each in made for token in each]
-        sentence = done_at_last(_before_that(_rid(_nothing_there(sentence))), told_before)
+        whole = done_at_last(_before_that(_rid(_nothing_there(sentence))), told_before)
+        made += _plainly(by_the_robot(stack_of(whole)), told_before, nouns)
+    return made
+
+
+def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[list[Token]]:
+    """What is asked with `whole`, behind sentences with the words `before`."""
+    made: list[list[Token]] = []
+    for sentence in (each for one in for_each_arm(whole) for each in from_side(one, nouns)):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
         plain = _inside(_so_that(_let(_got(_lowered(_emptied(_making_room(_able(_politely(plain)))))))))
-        piled = any(word in _PILES for word in told_before)
+        piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
         for checked in _checked(plain):
             for each in _from_stack(checked, piled=piled):
                 made += _all_but(each)

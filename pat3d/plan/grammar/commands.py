@@ -337,8 +337,18 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
             made[given] = replace(made[given], text="fetch")
             made.pop()
             continue
+        leads = token.text in ("pass", "hand") and (not at or tokens[at - 1].mark or before in _THEN)
+        if leads and follower in lexicon.DEFINITE | lexicon.POSSESSIVES and not _leads_on(tokens, at):
+            # "Pass the hammer."
+            token = replace(token, text="fetch")
         if token.text == "sure" and before in ("make", "making") and follower != "to":
             made[-1] = replace(made[-1], text="ensure", end=token.end)
             continue
         made.append(token)
     return made
+
+
+def _leads_on(tokens: Sequence[Token], at: int) -> bool:
+    """Whether more than the name of a thing stands behind the verb at token `at`, up to a mark or the next deed."""
+    end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark or tokens[n].text in ("and", "then"))
+    return any(link_at(tokens, n) for n in range(at + 1, end))

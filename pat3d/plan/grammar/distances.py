@@ -16,8 +16,8 @@ FAR = 0.5
 """From what distance on things are away from each other rather than beside each other [m]."""
 _RAISING = frozenset({"lift", "raise", "hoist"})
 """Verbs by which a thing comes to be that far from where it is before."""
-_MOVING = frozenset({"lift", "move", "push", "slide", "shift", "nudge", "shove", "drag", "reposition", "bring", "sweep",
-                     "carry"})  # fmt: skip
+_MOVING = frozenset({"lift", "raise", "move", "push", "slide", "shift", "nudge", "shove", "drag", "reposition", "bring",
+                     "sweep", "carry"})  # fmt: skip
 """Verbs, besides those of which no task is, that go with how far."""
 _WAYS = lexicon.DIRECTIONS | {"up", "down", "upward", "upwards", "downward", "downwards", "left", "right", "out",
                               "away", "and", "then", "apart"}  # fmt: skip

@@ -52,7 +52,12 @@ class Doing(Placing):
         """What everything that is moved is on before."""
 
     def _note_goal(self, facts: Sequence[tuple]) -> None:
-        """Say that "on the tray to the left of the bowl" is read as the tray's place, not the goal's."""
+        """Say that "on the tray to the left of the bowl" is read as the tray's place, and "on the base" as no place."""
+        for _, at, _, heads, *_ in (fact for fact in facts if fact[0] == "goal"):
+            parts = heads and all(self._chunks[head].named.kind == "part" for head in heads)
+            if parts and not self._said.ref_all(heads):
+                said = " ".join(self._chunks[each].text for each in (at, *heads))
+                self._world.note(f'not understood: "{said}": nothing is named that it is a part of')
         goals = {head for fact in facts if fact[0] == "goal" and self._chunks[fact[1]].relation.kind == "on"
                  for head in fact[3]}  # fmt: skip
         for fact in facts:

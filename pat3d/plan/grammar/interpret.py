@@ -234,8 +234,9 @@ class Interpreter(Holding):
         if self._chunks[at].words in ACROSS:
             self._world.note(f'"{self._chunks[at].text}" is read as "next to".')
         moved = self._clause.verb in _ROLLING and (link.kind in LATERAL_KINDS or link.manner in ("under", "between"))
-        if self._clause.manner in ("other", "unload") and (link.manner == "goal" or (moved and at == 1)):
-            # "Pour the milk into the glass": before that it is not there.
+        aimed = self._clause.verb == "point" and self._chunks[at].words == ("at",)
+        if self._clause.manner in ("other", "unload") and (link.manner == "goal" or aimed or (moved and at == 1)):
+            # "Pour the milk into the glass", "point the camera at the vase": before that it is not so.
             self._said.not_understood((*child_heads, *parent_heads))
             return
         if self._chunks[at].words == ("to",) and self._clause.manner is None:

@@ -13,6 +13,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.acting import without_actor
 from pat3d.plan.grammar.addressed import unaddressed
 from pat3d.plan.grammar.amounts import worked_out
+from pat3d.plan.grammar.apposed import apposed
 from pat3d.plan.grammar.attached import attached_higher
 from pat3d.plan.grammar.carried_clauses import of_the_carried
 from pat3d.plan.grammar.chunks import trimmed
@@ -27,6 +28,7 @@ from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
 from pat3d.plan.grammar.instructions import Clause, clauses
 from pat3d.plan.grammar.interpret import Interpreter
+from pat3d.plan.grammar.laid_tables import laid_tables
 from pat3d.plan.grammar.left_out import doing_nothing, quoted, without
 from pat3d.plan.grammar.lettering import lettering
 from pat3d.plan.grammar.lexing import Span, Token, normalise, singulars, tokenise
@@ -128,11 +130,14 @@ class GrammarPlanner(Sparing):
         tokens = levels_of(by_rank(of_the_carried(tokens, self._nouns), self._nouns), self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         said, aside = unaddressed(text, sentences(tokens, self._nouns), self._nouns)
+        said, which = apposed(text, said)
+        said, unlaid = laid_tables(text, said, self._nouns)
         spoken, talk = without_talk(said, self._nouns)
         told = [with_distances(text, clause) for sentence in spoken for clause in self._clauses(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
-        world.notes += [f'not modelled: "{each}"' for each in (*(quoted(text, span) for span in talk), *beside_robot)]
+        away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
+        world.notes += [*(f'not modelled: "{each}"' for each in away), *which]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read(text, clause, world, company)

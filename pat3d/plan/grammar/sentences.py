@@ -15,9 +15,11 @@ from pat3d.plan.grammar.guests import for_guests
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word
+from pat3d.plan.grammar.talk import spoken_before
 from pat3d.plan.grammar.towers import so_that
 from pat3d.plan.grammar.unmade import base_verb
 from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.plan.grammar.wanted_states import brought_about
 
 CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 """Words that open what has to be before something is done."""
@@ -38,8 +40,8 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
     tokens = _contents(so_that(told_plainly(for_guests(tokens))), nouns)
-    told = _conditions(_labelled(_cut(tokens, nouns)))
-    told = _reordered(exceptions(plainly_asked(told)), nouns)
+    told = _conditions(brought_about(_labelled(_cut(tokens, nouns))))
+    told = _reordered(exceptions(plainly_asked(told, nouns)), nouns)
     return [sentence for sentence in told if len(sentence) > 1]
 
 
@@ -59,7 +61,7 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
         made[-1].append(replace(token, text=".", mark=True) if begins else token)
         if token.text == "." or begins:
             made.append([])
-    return [sentence for sentence in made if len(sentence) > 1]
+    return [each for sentence in made if len(sentence) > 1 for each in spoken_before(sentence)]
 
 
 def _contents(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

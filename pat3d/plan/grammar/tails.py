@@ -56,6 +56,11 @@ _SCREENS = frozenset({"screen", "screens", "display", "displays", "wallpaper"})
 _CELLS = frozenset({"row", "column", "line"})
 _LEAVING = frozenset({"off", "from", "out", "of", "into", "onto", "to"})
 _ADVERBS = frozenset({"apart", "away", "aside", "back", "ago", "later", "before", "so"})
+_SOMEBODY = frozenset({"she", "he", "they", "we", "i", "you", "someone", "somebody", "everyone", "everybody"})
+_PEOPLE = frozenset({"guest", "guests", "friend", "friends", "mother", "father", "mom", "dad", "wife", "husband",
+    "family", "parents", "sister", "brother", "boss", "colleagues", "neighbor", "neighbour", "kids", "children", "baby",
+    "visitors", "people", "party", "meeting"})  # fmt: skip
+_ARRIVING = frozenset({"come", "comes", "arrive", "arrives", "arrived"})
 _TRIED = 10
 """Spans without which a sentence is tried."""
 
@@ -173,8 +178,10 @@ class Tails(Remarks):
 
     def _unknown_deed(self, at: int) -> bool:
         """Whether a word that no table has stands at `at`, and what it is done to behind it: "to sweeten the tea"."""
-        word, follower = self._words[at], self._words[min(at + 1, len(self._words) - 1)]
-        leads = follower in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
+        word, after = self._words[at], min(at + 1, len(self._words) - 2)
+        # "To brighten up the room"
+        after += self._words[after] in _PARTICLES
+        leads = self._words[after] in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
         known = is_modifier(word) or is_quality(word) or word in JOINERS or link_at(self._tokens, at)
         return word.isalpha() and leads and not (known or self._begins(at))
 
@@ -223,7 +230,8 @@ class Tails(Remarks):
             # "that the robot has to avoid", "that is too old"
             return [*finite[follower not in FINITE :], *marks] if behind else []
         if word in _SUBORDINATING or (word in ("by", "for") and follower.endswith("ing")):
-            return marks if not link_at(self._tokens, at) or base_verb(follower) is not None else []
+            clause = base_verb(follower) is not None or self._someone_acts(at + 1)
+            return marks if not link_at(self._tokens, at) or clause else []
         if (
             word == "to"
             and not self._named.get(at + 1)
@@ -247,6 +255,13 @@ class Tails(Remarks):
         several = bool(singulars(self._words[at - 1])) or "and" in self._words[:at]
         bare = word == base_verb(word) and not several
         return [] if related or bare or self._tokens[at + 1].mark else marks[:1]
+
+    def _someone_acts(self, at: int) -> bool:
+        """Whether "she arrives" or "the guests come" stands at token `at`: somebody, and what no scene has."""
+        who = at + (self._words[at] in lexicon.DETERMINERS | lexicon.POSSESSIVES)
+        verb = min(who + 1, len(self._words) - 1)
+        acts = base_verb(self._words[verb]) is not None or self._words[verb] in _ARRIVING
+        return self._words[who] in (_SOMEBODY if who == at else _PEOPLE) and acts
 
     def _placing(self, at: int) -> bool:
         size = link_at(self._tokens, at)
@@ -324,7 +339,8 @@ class Tails(Remarks):
             return False
         if not inner and article and not (word in _ADVERBS or is_quality(word) or set(forms) & lexicon.PARTS):
             return False
-        plain = word.isdecimal() or word == "'s" or is_marked(word) or is_modifier(word) or word in JOINERS
+        plain = at > 1 and (self._someone_acts(at - 1) or self._someone_acts(at - 2))
+        plain = plain or word.isdecimal() or word == "'s" or is_marked(word) or is_modifier(word) or word in JOINERS
         if plain or makes_nothing(word) or word in lexicon.VAGUE:
             return True
         general = lexicon.STACK_NOUNS | lexicon.ITEMS | lexicon.PIECES | lexicon.ROWS

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
+from pat3d.plan.grammar.instructions import known_verb
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.unmade import is_quality, makes_nothing
@@ -58,6 +60,24 @@ def _heading(sentence: Sequence[Token]) -> int:
     shared = {"each", "every", "apiece", "per", "both"} & {*words[colon:]}
     plain = colon == head + 1 or (words[head + 1] == "for" and colon < head + 5)
     return colon if served and plain and not shared and colon < len(words) - 2 else 0
+
+
+def spoken_before(sentence: list[Token]) -> list[list[Token]]:
+    """Tell "my hands are dirty, get the soap" as "my hands are dirty", "get the soap": talk, and what is asked."""
+    words = [token.text for token in sentence]
+    comma = words.index(",") if "," in words else 0
+    after = comma + 1 + (words[comma + 1] in ("so", "please", "now"))
+    leads = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.PRONOUNS | lexicon.VIEWERS
+    asked = comma > 1 and after < len(words) - 2 and known_verb(words[after]) and words[after + 1] in leads
+    if not asked:
+        return [sentence]
+    speaks = words[0] in _SPEAKERS | {"my", "our", "it's"} and "to" not in words[:comma]
+    verb = next((n for n in range(2, comma) if words[n] in ("is", "are", "was", "were")), 0)
+    plain = not any(link_at(sentence, n) for n in range(comma))
+    tells = words[0] == "the" and verb and comma - verb in (2, 3) and plain
+    if not (speaks or tells):
+        return [sentence]
+    return [[*sentence[:comma], replace(sentence[-1])], list(sentence[after:])]
 
 
 def _is_talk(sentence: Sequence[Token], nouns: Nouns) -> bool:
