@@ -69,11 +69,22 @@ def _fractions(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "half of the ten balls" as "five of the ten balls", and "the other half" as "the other five"."""
     made = list(tokens)
     at = half = 0
-    while at < len(made) - 3:
+    while at < len(made) - 2:
         words = [token.text for token in made[at : at + 5]]
+        half = 0 if words[0] == "." else half
+        bare = words[0] == "half" and is_colour_word(words[1]) and at > 1 and made[at - 1].text in (",", ":", "and")
+        if (
+            bare
+            and (half or singulars(made[at - 2].text))
+            and (half or counted_before(made, at) % 2 == 0 < counted_before(made, at))
+        ):
+            # "Six pens, half red, half blue"
+            made[at + 1 : at + 1] = [replace(made[at], text=word) for word in ("of", "them")]
+            words = [token.text for token in made[at : at + 5]]
         size = 2 if words[:2] == ["half", "of"] else 1
         if words[0] == "half" and words[size] in ("the", "them", "these"):
-            number = number_of(words[size + 1]) if words[size] == "the" else counted_before(made, at)
+            # "Six pens, half of them red and half of them blue": both of the six.
+            number = number_of(words[size + 1]) if words[size] == "the" else 2 * half or counted_before(made, at)
             if number and number % 2 == 0:
                 half = number // 2
                 of = replace(made[at], text="of")

@@ -10,7 +10,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.described import tell
 from pat3d.plan.grammar.entities import Group, Item
 from pat3d.plan.grammar.likes import SHAPES, measured
-from pat3d.plan.grammar.matching import colours_of, line_up, position
+from pat3d.plan.grammar.matching import colours_of, is_numbered, line_up, position
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.ones import coloured_like
 from pat3d.plan.grammar.phrases import Phrase
@@ -347,6 +347,11 @@ class Contrast(Pronouns):
             if piece.kind not in ("noun", "joint", "there"):
                 break
             heads += [n] * (piece.kind == "noun")
+        told = [head for head in self.known if head < at]
+        numbered = any(is_numbered(self._chunks[head].named) for head in told)
+        if not numbered and any(len(self.known[head]) > 1 for head in told):
+            # "A cup and a jar are on a shelf. Four cans stand in a row, the second one red.": of the cans.
+            return []
         named = [self.known.get(head, []) for head in heads]
         if len(named) > 1 and all(len(items) == 1 for items in named):
             return [items[0] for items in named]

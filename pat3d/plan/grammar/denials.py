@@ -12,6 +12,7 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.number_words import numeral
 from pat3d.plan.grammar.sentences import CONDITIONS
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -20,18 +21,76 @@ Told = tuple[list[Token], list[tuple[Token, Token]]]
 
 _NOTHING = frozenset({"nothing", "nobody"})
 _NO = frozenset({"neither", "none"})
+_ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
+_OTHERS = frozenset({"other", "others", "rest", "second"})
+_BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
+        ("but",), ("except",), ("save",), ("besides",), ("than",))  # fmt: skip
+_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
 
 
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of, _missing,
-                 _among):  # fmt: skip
+    for told in (_none_there, _the_other, _nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind,
+                 _nothing, _none_of, _missing, _among):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
             return rest, [*denied, *more]
     return list(tokens), []
+
+
+def _not_at(words: list[str], at: int) -> int:
+    """How many words are "isn't", "is not" at word `at`; 0 where they are not."""
+    said = words[at : at + 2]
+    return 1 if {*said[:1]} & _ISNT else 2 if {*said[:1]} & FINITE and said[1:] == ["not"] else 0
+
+
+def _none_there(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "there isn't any fork", "there are not any forks" as "there is no fork"."""
+    for at in range(len(words) - 3):
+        size = _not_at(words, at + 1) if words[at] == "there" else 0
+        behind = at + 1 + size
+        if size and words[behind] in ("a", "an", "any"):
+            there = [replace(tokens[at + 1], text=word) for word in ("is", "no")]
+            return [*tokens[: at + 1], *there, *tokens[behind + 1 :]], []
+    return None
+
+
+def _the_other(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "one of the two mugs is on a coaster, the other isn't" without the other."""
+    for at in range(2, len(words) - 2):
+        lead = words[at - 1] in ("and", "but", "while", "whereas")
+        start = at - lead - (words[at - 1 - lead] == ",")
+        one = at + 1 + (words[at + 1] == "two")
+        size = _not_at(words, one + 1 + (words[one + 1] in ("one", "ones"))) if one + 1 < len(words) else 0
+        if words[at] != "the" or words[one] not in _OTHERS or not size or start == at:
+            continue
+        end = next(n for n in range(one, len(words)) if tokens[n].mark)
+        if "but" not in words[one:end]:
+            return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _nor(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "neither the bowl nor the jar has anything in it" as "there are the bowl and the jar"."""
+    nor = words.index("nor") if words[0] == "neither" and "nor" in words else 0
+    verb = next((n for n in range(nor + 1, len(words)) if words[n] in FINITE), 0) if nor else 0
+    if not verb or any(token.mark or link_at(tokens, n) for n, token in enumerate(tokens[:verb])):
+        return None
+    spans = [(1, nor), (nor + 1, verb)]
+    end = next(n for n in range(verb, len(words)) if tokens[n].mark)
+    # "Neither a fork nor a spoon is on the plate" tells of a plate alone.
+    known = all(words[start] in lexicon.DEFINITE | lexicon.POSSESSIVES for start, _ in spans)
+    if not known or not all(nouns.longest(words[start:stop]) for start, stop in spans) or tokens[end].text != ".":
+        return None
+    if (size := link_at(tokens, verb + 1)) and nouns.longest(words[verb + 1 + size : end]):
+        # "Neither the cup nor the plate is on the tray": the tray is there too.
+        spans.append((verb + 1 + size, end))
+    joints = [replace(tokens[nor], text="and") for _ in spans]
+    there = [replace(tokens[0], text=word) for word in ("there", "are")]
+    each = [token for (start, stop), joint in zip(spans, joints, strict=True) for token in (joint, *tokens[start:stop])]
+    return [*there, *each[1:], tokens[end]], [(tokens[0], tokens[end - 1])]
 
 
 def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -143,7 +202,11 @@ def _none_behind(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Tol
 
 def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "nothing is on the plate" as "there is the plate", and "nobody is there, only a cup" as "a cup"."""
-    if words[0] not in _NOTHING or words[1] in ("but", "else", "except", "other"):
+    if words[0] not in _NOTHING:
+        return None
+    if (found := _nothing_but(tokens, words)) is not None:
+        return found, []
+    if words[1] == "else" or any(tuple(words[1 : 1 + len(said)]) == said for said in _BUT):
         return None
     end = next(n for n in range(len(words)) if tokens[n].mark)
     if words[end] == ",":
@@ -155,6 +218,25 @@ def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         return None
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
     return [*there, *tokens[the:]], [(tokens[0], tokens[end - 1])]
+
+
+def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | None:
+    """Read "nothing remained on the shelf but a cup and a can" as "on the shelf are a cup and a can"."""
+    link = next((n for n in range(1, len(words) - 3) if link_at(tokens, n)), 0)
+    but, size = next(
+        ((n, len(said)) for n in range(link + 2, len(words) - 2) for said in _BUT
+         if tuple(words[n : n + len(said)]) == said and link), (0, 0))  # fmt: skip
+    the = but + size
+    place = tokens[link : but - (words[but - 1] == ",")]
+    counted = words[the] in _LEADS or words[the].isdecimal()
+    if not but or not counted or any(token.mark for token in (*tokens[:link], *place)):
+        return None
+    verb = next((n for n in range(the, len(words)) if words[n] in FINITE), 0)
+    if verb and not lexicon.RELATIVES & {*words[the:verb]}:
+        # "Nothing is on the plate but the cup holds a pen."
+        return None
+    several = numeral(words[the]) > 1 or bool({",", "and"} & {*words[the:]})
+    return [*place, replace(tokens[but], text="are" if several else "is"), *tokens[the:]]
 
 
 def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -179,6 +179,7 @@ class Doing(Placing):
                 )
             return
         moved, goal = (" ".join(self._chunks[head].text for head in heads) for heads in (child_heads, parent_heads))
+        part = f"{moved} {self._chunks[at].text} {goal}".strip()
         refuse_goal(self._clause.said, children, parents, moved, goal)
         for head in parent_heads:
             self._note_part(head)
@@ -200,7 +201,7 @@ class Doing(Placing):
             self._step([item], link, [goal])
             children = []
         if children:
-            self._step(children, link, parents)
+            self._step(children, link, parents, part)
 
     def _topmost(self, parents: list[Item]) -> list[Item]:
         """What carries what is put on the tower that "it" is: the highest of its kind above one of `parents`."""
@@ -248,7 +249,7 @@ class Doing(Placing):
         elif self._clause.manner != "make" or not made_up:
             self._step(children, None, [])
 
-    def _step(self, children: list[Item], link: Link | None, parents: list[Item]) -> None:
+    def _step(self, children: list[Item], link: Link | None, parents: list[Item], part: str = "") -> None:
         manner = self._clause.manner
         if manner is None:
             raise PromptError(f'"{self._clause.said}" tells nobody what to do.')
@@ -260,7 +261,14 @@ class Doing(Placing):
             self._world.emptied = children
             return
         self._world.steps.append(
-            Step(manner=manner, said=self._clause.said, items=tuple(children), link=link, goal=tuple(parents))
+            Step(
+                manner=manner,
+                said=self._clause.said,
+                part=part,
+                items=tuple(children),
+                link=link,
+                goal=tuple(parents),
+            )
         )
 
     def _is_items(self, heads: Sequence[int]) -> bool:

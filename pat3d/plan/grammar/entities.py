@@ -116,6 +116,8 @@ class Step:
     manner: Manner
     said: str
     """The clause, as written."""
+    part: str = ""
+    """What of the clause says it, where that asks for several: "the fork beside it"."""
     items: tuple[Item, ...]
     link: Link | None = None
     goal: tuple[Item, ...] = ()

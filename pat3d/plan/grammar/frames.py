@@ -22,8 +22,8 @@ _TAKEN = (
 _FRAMES = "|".join((
     rf"(?:please )?(?:can|could|would|will) (?:you|we)(?: please| kindly| maybe)? {_MAKING}",
     r"(?:can|could|may|might) (?:i|we)(?: please)? (?:have|get|see)",
-    rf"(?:i|we|i'd|we'd|i'll|we'll)(?: would| could| should| will| do)?(?: really| just| also)? (?:want|need|like|love"
-    rf"|prefer|imagine|picture|have|see|use|count)(?: (?:you )?to (?:see|have|get|{_MAKING}))?",
+    rf"(?:i|we|i'd|we'd|i'll|we'll)(?: can| would| could| should| will| do)?(?: really| just| also)? (?:want|need|like"
+    rf"|love|prefer|imagine|picture|have|see|use|count)(?: (?:you )?to (?:see|have|get|{_MAKING}))?",
     r"(?:i'm|we're|i am|we are) (?:thinking of|imagining|picturing|looking for|looking at|envisioning)",
     r"(?:let's|let us|lets) (?:have|see|imagine|picture|say|create|add)",
     r"(?:think of|imagine|picture|consider|suppose|envision|visuali[sz]e)(?: that)?",

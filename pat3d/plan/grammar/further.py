@@ -38,6 +38,21 @@ class Further(Contrast):
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
 
+    def _next_of(self, group: Group, index: int, phrase: Phrase) -> list[Item]:
+        """The fourth where three were named: "three mugs hang on a rack; the fourth stands next to it"."""
+        likes = [
+            item for one in self._world.groups if one.noun == group.noun and not one.replaced for item in one.items
+        ]
+        apart = group.rows or group.height > 1 or not group.exact or group.proxy or group.cycle
+        if apart or " of " in phrase.words.lower() or index > len(likes):
+            return []
+        if index < len(likes):
+            return [likes[index]]
+        like = replace(group.phrase.modifiers, postures=(), palette=())
+        like = replace(like, colours=like.colours if len(like.colours) < 2 else ())
+        self._world.note(f'"{phrase.words}" is read as a further one, {index + 1} in all.')
+        return self._one_like(group.items, replace(phrase, modifiers=like, count=1))
+
     def _carrier_like(self, at: int) -> Group | None:
         """What carries in the same way as "another" at chunk `at` is to: "a doll on a chair and a bear on another"."""
         link = self._chunks[at - 1].link if at else None

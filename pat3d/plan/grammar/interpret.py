@@ -62,7 +62,9 @@ class Interpreter(Holding):
         ]
         self._chunks = self._said.with_parts(facts)
         self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
-        self._said.cost += _TWICE * any(self._listed_twice(fact[3]) for fact in facts if fact[0] == "have")
+        # "A cup and a can, the can in a box": the can alone is.
+        listed = [fact[3] if fact[0] == "have" else fact[2] for fact in facts if fact[0] in ("have", "rel")]
+        self._said.cost += _TWICE * any(map(self._listed_twice, listed))
         qualities = [fact for fact in facts if fact[0] == "quality"]
         for at, chunk in enumerate(self._chunks):
             if chunk.phrase is None:
@@ -131,8 +133,8 @@ class Interpreter(Holding):
         named = [self._chunks[head].named for head in heads]
         pairs = [(one, other) for at, other in enumerate(named) for one in named[:at] if one.noun == other.noun]
         return any(
-            one.kind == other.kind == "object" and other.definite and not (one.definite or other.other or other.plural)
-            and one.count in (None, 1) and {*other.modifiers.colours} <= {*one.modifiers.colours}
+            one.kind == other.kind == "object" and other.definite and not (one.definite or other.other)
+            and (other.plural or one.count in (None, 1)) and {*other.modifiers.colours} <= {*one.modifiers.colours}
             for one, other in pairs
         )  # fmt: skip
 
@@ -150,7 +152,9 @@ class Interpreter(Holding):
         if len(told) != 1:
             return told
         below = {below for item in (*world.together, *told) for below in world.ancestors(item)}
-        return [*(item for item in world.together if item not in (*told, *below)), *told]
+        known = [item for item in world.together if item in told or item not in below]
+        # "A cup, a jar and a can: the first is red, the second green": told of one, they keep their order.
+        return known if told[0] in known else [*known, *told]
 
     def _account(self, facts: Sequence[tuple]) -> None:
         """Name every word of the sentence that had no effect."""

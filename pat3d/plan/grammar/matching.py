@@ -5,6 +5,8 @@ from __future__ import annotations
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.entities import Edge, Group, Item
 from pat3d.plan.grammar.lexing import singulars
+from pat3d.plan.grammar.modifiers import is_colour_word
+from pat3d.plan.grammar.number_words import ORDINALS
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.world import World
 from pat3d.scene.relations import LateralKind
@@ -13,6 +15,8 @@ SAME = {"leftmost": "left", "rightmost": "right"}
 PLACES = {**lexicon.POSITIONS, **lexicon.LEVELS}
 ALONG = {"left": 0, "middle": 1, "center": 1, "centre": 1, "right": 2}
 """Places of likes from left to right."""
+COUNTED = {**{word: at for at, word in enumerate(ORDINALS)}, "last": -1}
+"""Places in the order in which things are named."""
 OPPOSITE = {"left": "right", "right": "left", "front": "back", "back": "front"}
 LATERAL_SIDES: dict[str, LateralKind] = {
     "left": "left_of",
@@ -31,6 +35,14 @@ def position(phrase: Phrase) -> str:
     """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
     found = next((word for word in phrase.modifiers.adjectives if word in PLACES), "")
     return SAME.get(found, found) if phrase.definite else ""
+
+
+def is_numbered(phrase: Phrase) -> bool:
+    """Whether `phrase` tells its object by the order of a list alone: "the last", "the second one", "... one red"."""
+    where = position(phrase)
+    words = phrase.words.lower().split()
+    one = words[2:3] == ["one"] and all(is_colour_word(word) for word in words[3:])
+    return where in COUNTED and words[:2] == ["the", where] and (len(words) == 2 or one)
 
 
 def same_noun(group: Group, phrase: Phrase) -> bool:

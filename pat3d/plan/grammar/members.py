@@ -13,16 +13,17 @@ from pat3d.plan.grammar.further import Further
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.matching import (
     ALONG,
+    COUNTED,
     OPPOSITE,
     PLACES,
     SAME,
     colours_of,
+    is_numbered,
     line_up,
     position,
     same_noun,
 )
 from pat3d.plan.grammar.modifiers import NO_MODIFIERS
-from pat3d.plan.grammar.number_words import ORDINALS
 from pat3d.plan.grammar.objects import recount, tell_colours
 from pat3d.plan.grammar.phrases import Phrase
 from pat3d.plan.grammar.unlike import one_of_unlike
@@ -31,7 +32,6 @@ _APART = 0.7
 """What it costs where only some of those of which "each" speaks are on a tray, or one of them is on "each"."""
 _REST = frozenset({"other", "others", "rest", "remaining", "remainder"})
 _ENUMERATED = {"former": 0, "latter": 1}
-_COUNTED = {**{word: at for at, word in enumerate(ORDINALS)}, "last": -1}
 _LARGER = frozenset({"largest", "biggest", "larger", "bigger", "tallest", "taller", "large", "big", "tall"})
 _SMALLER = frozenset({"smallest", "smaller", "littlest", "shortest", "shorter", "tiniest", "small", "little"})
 
@@ -84,7 +84,7 @@ class Members(Further):
             if len(items) == 1:
                 return []
             # "The left cup is red, the middle one blue": the middle of all.
-            items = items if where in ALONG or where in _COUNTED else [item for item in items if not item.place]
+            items = items if where in ALONG or where in COUNTED else [item for item in items if not item.place]
         if where and len(items) > 1 and not phrase.plural and (group.height > 1 or where not in lexicon.LEVELS):
             return self._at(items, where, phrase)
         size = phrase.modifiers.size_word
@@ -125,6 +125,8 @@ class Members(Further):
     def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
         index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
         if not -len(items) <= index < len(items):
+            if where in COUNTED and (more := self._next_of(items[0].group, index, phrase)):
+                return more
             self._world.note(f'"{phrase.words}": there are only {len(items)}.')
             return items[-1:]
         item = items[index]
@@ -177,10 +179,10 @@ class Members(Further):
             told = [group for group in told if group not in below] or told
             told = told[-2:] if self._earlier else told[:2]
             return list(told[_ENUMERATED[phrase.head]].items) if len(told) == 2 else []
-        listed = self._enumerated(at) if where in _COUNTED and phrase.words.lower() == f"the {where}" else []
-        if listed and len({item.group for item in listed}) == len(listed):
-            # "A cup and a bowl: the first is red, the second holds an egg."
-            found = listed[_COUNTED[where] : _COUNTED[where] + 1] if where != "last" else listed[-1:]
+        listed = self._enumerated(at) if is_numbered(phrase) else []
+        if len(listed) > max(1, COUNTED.get(where, 0)) and len({item.group for item in listed}) == len(listed):
+            # "A cup and a bowl: the first is red, the second one holds an egg."
+            found = listed[COUNTED[where] :][:1]
             for item in found:
                 tell(item, replace(words, adjectives=()))
             return found
@@ -210,7 +212,13 @@ class Members(Further):
                 onto = any(one & {*listed} and at in other for one, other in self.related)
                 self.cost += _APART * (apart + onto)
                 return [item for head in listed for item in self.known[head]]
-            subject = list(plural[0].items) if plural else self._before(at)
+            # "At each end of a desk is a lamp, a cup right of each": no cup is right of a cup.
+            subject = [item for item in self._before(at) if item.group not in besides] or self._before(at)
+            again = [head for head in self.known if head < at and self._chunks[head].named.each]
+            if again and self.known[again[-1]] and self.known[again[-1]][0].group not in besides:
+                # "A fork left of each plate and a knife right of each": of each plate.
+                subject = self.known[again[-1]]
+            subject = list(plural[0].items) if plural else subject
             several = [group for group in reversed(world.groups) if len(group.items) > 1 and not group.replaced]
             if len(subject) == 1 == len(subject[0].group.items) and several:
                 # "A bench with three cans on it. Behind each lies a screw.": behind each can.
@@ -252,7 +260,7 @@ class Members(Further):
             behind = phrase.words.lower().split()[-1] not in ("one", "ones", phrase.said)
             alike = line is not None and any(words.colours[0] in colours_of(item) for item in line.items)
             if line is not None and (behind or not alike):
-                return self._at(line.items, where, phrase)
+                return self._numbered(at, line, where, phrase)
         compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
         if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)
@@ -265,15 +273,28 @@ class Members(Further):
             tall = next((group for group in groups if where and len(group.items) > count), None)
             if tall is not None:
                 return self._at(tall.items, where, phrase)
+            if where in COUNTED and where != "first":
+                # "A box holds a pen and a ruler. The second one is red.": nothing named is one of several.
+                return []
             return list(whole.items[:count]) if whole is not None else []
         if where:
-            return self._at(whole.items, where, phrase)
+            return self._numbered(at, whole, where, phrase)
         if rest:
             free = [item for item in whole.items if world.support(item) is None] or whole.items
             count = count if phrase.count or phrase.head == "other" else len(free)
             return list(free[len(free) - count :])
         world.telling = whole.items[count:]
         return list(whole.items[:count])
+
+    def _numbered(self, at: int, group: Group, where: str, phrase: Phrase) -> list[Item]:
+        """The one of `group` at `where`; with a note where other things were named with it.
+
+        "Two cans and a mug. The last one is blue." may be told of the mug.
+        """
+        found = self._at(group.items, where, phrase)
+        if is_numbered(phrase) and {*found} <= {*group.items} and len({item.group for item in self._before(at)}) > 1:
+            self._world.note(f'"{phrase.words}" is read as one of "{group.words}".')
+        return found
 
     def _two(self, phrase: Phrase) -> None:
         """Leave two of several of which no number is said, where "the other" is said of them: "one of the steaks"."""

@@ -61,7 +61,8 @@ _HAVING = {"contain": "contains", "hold": "holds", "have": "has", "carry": "carr
 _WHO_HOLD = frozenset({"robot", "arm", "gripper", "hand", "agent", "you", "i", "we", "it", "they"})
 """Words before "should hold" that tell who does it."""
 _SILENT = tuple(tuple(said.split()) for said in (
-    "in turn", "of course", "nothing but", "as usual", "somewhere", "anywhere", "what about", "how about",
+    "in turn", "of course", "nothing but", "nothing except for", "nothing apart from", "nothing other than",
+    "nothing except", "nothing besides", "as usual", "somewhere", "anywhere", "what about", "how about",
     "and nothing else", "in that order", "any more", "so that it is", "so that it stands", "so that they are",
     "so that they stand", "seen from above", "viewed from above", "seen from the side", "seen from the front",
     "as seen from above", "nothing on it but", "nothing in it but", "nothing on it except", "nothing in it except",
@@ -93,8 +94,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
-    kept: list[Token] = []
-    at = 0
+    kept, at = list[Token](), 0
     while at < len(tokens):
         words = [token.text for token in tokens[at : at + 4]]
         size = next((len(each) for each in phrases if tuple(words[: len(each)]) == each), 0)
@@ -116,9 +116,8 @@ def _without_warning(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a cup (red)" as "a red cup"."""
-    made: list[Token] = []
-    at = 0
+    """`tokens` with "a cup (red)" as "a red cup", "two cups (stacked)" as "two stacked cups"."""
+    made, at = list[Token](), 0
     while at < len(tokens):
         token = tokens[at]
         end = next((n for n in range(at + 1, min(at + 14, len(tokens))) if _said(text, tokens[n]) in (")", ".")), at)
@@ -126,7 +125,7 @@ def _parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
         opens = token.mark and _said(text, token) == "(" and inside
         colours = sum(is_colour_word(each.text) for each in inside)
         closes = opens and _said(text, tokens[end]) == ")"
-        if closes and colours < 2 and all(is_modifier(each.text) for each in inside):
+        if closes and colours < 2 and all(is_modifier(each.text) or each.text == "stacked" for each in inside):
             size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
             made[len(made) - size : len(made) - size] = inside
             at = end + 1

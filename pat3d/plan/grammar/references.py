@@ -46,6 +46,9 @@ class References(Members):
                 self.known[at] = self._the_one(self._some_of(found, phrase), phrase)
                 if set(phrase.modifiers.adjectives) - set(found[0].group.modifiers.adjectives):
                     self._note_adjectives(phrase)
+                for item in self.known[at] if phrase.modifiers.postures else ():
+                    # "A white cup and two black cups, the black ones upside down"
+                    item.told = item.told.marked_as(phrase.modifiers)
                 level = position(phrase)
                 if level in (*lexicon.LEVELS, "middle") and phrase.head in lexicon.STORAGE_PARTS and len(found) == 1:
                     # "A shelf with a vase on the top shelf": it is made with one place to put things.

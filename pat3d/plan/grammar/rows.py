@@ -22,6 +22,9 @@ _SIDES = ("end", "side")
 _OPPOSITE = {("front", "back"): "in front of", ("back", "front"): "behind", ("first", "second"): "in front of"}
 """How the first row stands to the second."""
 
+_STACKS = frozenset({"stack", "tower", "pile"})
+_UPWARDS = (("from", "bottom", "to", "top"), ("from", "top", "to", "bottom"))
+_ORDERS = (["from", "left", "to", "right"], ["from", "right", "to", "left"])
 _ONE_EACH = (
     ("one and one", "one of them and one", "one and the other", "the front one and the back one",
      "the front row and the back row", "the first and the second", "the front and the back"),
@@ -32,7 +35,7 @@ _ONE_EACH = (
 
 def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what stands in a row before the row."""
-    tokens = _of_two_colours(_end_to_end(tokens))
+    tokens = _of_two_colours(_end_to_end(_told_stack(_from_one_end(tokens, nouns))))
     words = [token.text for token in tokens]
     colon = words.index(":") if ":" in words else 0
     if words[0] == "row" and colon and words[1].isdecimal():
@@ -79,6 +82,54 @@ def _end_to_end(tokens: Sequence[Token]) -> Sequence[Token]:
         place[0] = replace(place[0], text="on")
     row = [replace(tokens[at], text=word) for word in ("from", "left", "to", "right")]
     return [*tokens[:at], *place, *row, *tokens[to + 3 + again :]]
+
+
+def _told_stack(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "the stack consists of, from bottom to top, a cup and a can" as "a stack, ...: a cup and a can"."""
+    words = [token.text for token in tokens]
+    # "A stack of books is on a desk. The stack consists of ...": of those books.
+    led = words[0] in (("the", "a") if tokens[0].number == 1 else ("a",)) and words[1:2] and words[1] in _STACKS
+    is_ = words[2:4] == ["is", "made"]
+    size = is_ + _having(words, 2 + is_) if led else 0
+    if size < 2 or words[2] not in ("consists", "is"):
+        return tokens
+    a, first = replace(tokens[0], text="a"), 2 + size
+    comma = first + (words[first] == ",")
+    if tuple(words[comma : comma + 4]) not in _UPWARDS:
+        return [a, tokens[1], replace(tokens[first - 1], text="of"), *tokens[first:]]
+    mark = replace(tokens[1], text=",", mark=True)
+    behind = comma + 4 + (words[comma + 4] in (",", ":"))
+    return [a, tokens[1], mark, *tokens[comma : comma + 4], replace(mark, text=":"), *tokens[behind:]]
+
+
+def _from_one_end(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a desk, from the left: a mug, a can" as "on a desk, from left to right: a mug, a can"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 3]]
+        size = 2 + (words[1:2] == ["the"])
+        end = tokens[min(at + size, len(tokens) - 1)]
+        ahead = not made or made[-1].mark or made[-1].text in FINITE
+        side = words[size - 1] if words[:1] == ["from"] and len(words) >= size else ""
+        if ahead and side in ("left", "right") and end.text in (":", ","):
+            last = tokens[at + size - 1]
+            other = "right" if side == "left" else "left"
+            made += [tokens[at], *(replace(last, text=word) for word in (side, "to", other))]
+            at += size
+            continue
+        made.append(tokens[at])
+        at += 1
+    colon = next((n for n, token in enumerate(made) if token.text == ":"), 0)
+    order = next((n for n in range(2, colon) if made[n].mark), 0)
+    named = nouns.longest([token.text for token in made[:order]]) if order + 5 == colon else None
+    said = [token.text for token in made[order + 1 : colon]]
+    if named is None or said not in _ORDERS or made[0].text not in lexicon.DETERMINERS:
+        return made
+    if any(token.text in FINITE or link_at(made, n) for n, token in enumerate(made[:order])):
+        return made
+    level = nouns.of_class(named[0].noun, lexicon.LEVEL)
+    return [replace(made[0], text="on"), *made] if level else made
 
 
 def _of_two_colours(tokens: Sequence[Token]) -> list[Token]:

@@ -17,6 +17,7 @@ _MIDDLES = frozenset({"middle", "center", "centre"})
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
 """What may follow a place that nothing is said of, beside marks."""
+_AT_ENDS = tuple([":", near, each, "end"] for near in ("at", "on") for each in ("each", "either", "every"))
 _OTHERS = (
     ("the", "other"),
     ("the", "opposite"),
@@ -48,6 +49,11 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             lead -= 1
         bare = lead > 0 and words[lead - 1] in _NEAR and words[lead] in ("the", "a", "one", "each", "every")
         ends = at + 1 == len(tokens) or tokens[at + 1].mark or words[at + 1] in _BEHIND
+        fronted = words[max(at - 3, 0) : at + 1] in _AT_ENDS and words[at + 1] in lexicon.DETERMINERS
+        if fronted and len(level) == 1 and next(iter(level)).split()[-1] in words[:at]:
+            # "The table is set: at each end a mug"
+            made += [replace(token, text=word) for word in ("of", "the", *next(iter(level)).split())]
+            continue
         if at < 3 or not (bare and ends and _small(words[: lead - 1], nouns)):
             continue
         owner = told if token.text in _MIDDLES | _RIMS else ""

@@ -49,7 +49,9 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         made = _specs(step, world, names)
         notes += _unsaid(step, world)
         if not made:
-            notes.append(f'not modelled: "{step.said}": no task does that.')
+            # "Put the apple on the plate, and the fork beside it": the fork alone has no task.
+            several = sum(other.said == step.said for other in steps) > 1
+            notes.append(f'not modelled: "{step.part if several and step.part else step.said}": no task does that.')
         specs += made
     if not specs:
         # "Grasp the block, then turn it": of the two, the first is a task; not of "..., then put it beside the cup".

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import TOLD_BY_PLACE, is_colour_word, is_modifier
+from pat3d.plan.grammar.number_words import numeral
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _GRID = re.compile(r"[2-9]x[2-9]")
@@ -26,7 +27,7 @@ _LOOKS = lexicon.SIZES.keys() | {"round", "square", "open", "empty", "tall", "sh
 
 def in_full(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the small words that a jotted note leaves out."""
-    told = _the(_articles(_times(tokens, nouns), nouns))
+    told = _the(_articles(_times(_sized_grids(tokens), nouns), nouns))
     return _are(_listed(_counted(_before(_of(told, nouns), nouns), nouns), nouns), nouns)
 
 
@@ -74,6 +75,19 @@ def _articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if side and (after.mark or after.text in ("side", "of") or is_colour_word(after.text)):
             made.append(replace(token, text="the", end=token.start))
         made.append(token)
+    return made
+
+
+def _sized_grids(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a 3 by 3 grid" as "a 3x3 grid"."""
+    made: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        said = [each.text for each in tokens[at : at + 4]]
+        sized = said[1:2] == ["by"] and said[3:] == ["grid"] and numeral(said[0]) and numeral(said[2])
+        size = f"{numeral(said[0])}x{numeral(said[2])}" if sized else said[0]
+        made.append(replace(tokens[at], text=size, end=tokens[at + 2 * bool(sized)].end))
+        at += 3 if sized else 1
     return made
 
 
