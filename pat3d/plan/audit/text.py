@@ -159,6 +159,7 @@ def read(prompt: str, find: Find) -> Said:
     prompt = re.sub(r"\breach for\b", "take", prompt)
     prompt = re.sub(r"\b(is|are|was|were) out of\b", r"\1 outside", prompt)
     prompt = re.sub(_RAINBOW, "", prompt)
+    prompt = re.sub(rf"\b(?:this|the) {_PICTURE} (?:looks like|is of)\b", "", prompt)
     prompt = re.sub(rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", "", prompt)
     prompt = re.sub(r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", "", prompt)
     prompt = re.sub(r"\b(left|right), of\b", r"\1 of", prompt)
@@ -195,13 +196,7 @@ def _names(words: Sequence[str], find: Find) -> list[tuple[int, int, str, bool]]
     while at < len(words):
         for size in range(min(_LONGEST_NAME, len(words) - at), 0, -1):
             whole = words[at : at + size]
-            formed = whole == ["pyramid"] and words[at + 1 : at + 2] in (
-                ["of"],
-                ["made"],
-                ["built"],
-                ["with"],
-                ["from"],
-            )
+            formed = whole == ["pyramid"] and {*words[at + 1 : at + 2]} & {"of", "made", "built", "with", "from"}
             if size == 1 and (_unsure(words, at) or _hue(words, at) or whole[0] in SHADES or formed):
                 continue
             if size > 1 and whole[-1] == "stands" and words[at + size : at + size + 1] in _SINGULAR_VERB:
@@ -292,9 +287,10 @@ def _before(words: Sequence[str], start: int, taken: set[int]) -> list[int]:
 def _breaks(words: Sequence[str], at: int) -> bool:
     word = words[at]
     if word in (",", "and"):
-        # "a red and white mug", "a small, red mug"
+        # "a red and white mug", "a small, red mug", "a white, delicately painted plate"
         sides = words[max(0, at - 1)], words[at + 1] if at + 1 < len(words) else ""
-        return not all(find_colour(side) or find_material(side) or side in ADJECTIVES for side in sides)
+        told = word == "," and sides[1].endswith(("ly", "ed")) and words[at - 2] in ARTICLES
+        return not all(find_colour(side) or find_material(side) or side in ADJECTIVES for side in sides[: 2 - told])
     return word in BREAKING or not word[0].isalnum()
 
 

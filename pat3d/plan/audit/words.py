@@ -18,7 +18,7 @@ SOME = frozenset({"few", "couple", "pair", "several", "many", "number", "lot", "
 """Words with which "a" counts nothing."""
 IRREGULAR = {
     "mice": "mouse", "knives": "knife", "loaves": "loaf", "shelves": "shelf", "dice": "die", "geese": "goose",
-    "cacti": "cactus", "leaves": "leaf", "scarves": "scarf", "bookshelves": "bookshelf",
+    "cacti": "cactus", "leaves": "leaf", "scarves": "scarf", "bookshelves": "bookshelf", "tvs": "tv",
 }  # fmt: skip
 SINGLE = frozenset({"flowers", "grapes", "fries", "noodles", "playing cards"})
 """Names that are plural and mean one object."""

@@ -99,6 +99,8 @@ def miscounted(chunk: Chunk, items: Sequence[Item]) -> str | None:
     counts = {prod(chosen) for size in range(1, len(numerals) + 1) for chosen in combinations(_values(numerals), size)}
     if numerals and "half" in chunk.words:
         counts |= {count // 2 for count in counts}
+    if "pairs" in chunk.words:
+        counts |= {2 * count for count in counts}
     for word, number in numerals:
         each = group.multiplied and len(group.items) % number == 0
         if number in there or each or (number == 1 and phrase.kind == "pieces") or max(counts) in there:

@@ -221,8 +221,11 @@ class Boundaries:
             return False
         look = at + 1
         segment: list[str] = []
-        while len(segment) < 5 and (self._tokens[look].text == "," or self.goes_on(look)):
+        while len(segment) < 5 and (self._tokens[look].text == "," or self.goes_on(look) or self._qualifies(look)):
             word = self._tokens[look].text
+            if self._qualifies(look):
+                look += 1
+                continue
             if word == "," and len(segment) > 1:
                 break
             if word == ",":
@@ -236,6 +239,12 @@ class Boundaries:
             look += 1
         named = any(self._ends_in_noun(segment[:size]) for size in range(2, len(segment) + 1))
         return named and not self._nouns.match(segment[:1])
+
+    def _qualifies(self, at: int) -> bool:
+        """Whether token `at` is an adverb of a describing word: "a white, delicately painted plate"."""
+        word = self._tokens[at].text
+        adverb = word.endswith("ly") and not is_modifier(word) and self._nouns.match([word]) is None
+        return adverb and self._describes(self._tokens[at + 1].text)
 
     def _describes(self, word: str) -> bool:
         plain = is_modifier(word) or looks_like_adjective(word)

@@ -9,17 +9,24 @@ from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.entities import Group, Item
 from pat3d.plan.grammar.modifiers import Modifiers
 
+_PUT_ON = frozenset({"bow", "ribbon", "scarf", "sticker", "label", "strap", "lace"})
+"""Parts that are things of their own."""
+
 
 def share_colours(group: Group) -> None:
     """As many colours as objects, or three and more, are shared out among the objects."""
     named, palette = group.modifiers.colours, group.modifiers.palette
     count = len(group.items)
     in_turn = not group.counted or "alternating" in group.modifiers.adjectives
+    # "Two turquoise-blue mugs": each is of both.
+    mixed = any(len(COLOURS.keys() & {*word.split("-")}) > 1 for word in group.words.lower().split())
     if palette and count == 1:
         group.modifiers = replace(group.modifiers, colours=palette)
         return
     shared = palette or (
-        named if count > 1 and (len(named) == count or len(named) >= 3 or (len(named) == 2 and in_turn)) else ()
+        named
+        if count > 1 and not mixed and (len(named) == count or len(named) >= 3 or (len(named) == 2 and in_turn))
+        else ()
     )
     for index, item in enumerate(group.items):
         item.colours = (shared[index % len(shared)],) if shared else item.colours
@@ -34,14 +41,15 @@ def _inherited(group: Group) -> bool:
 def describe(group: Group, told: Modifiers, part: str = "") -> None:
     """Give `group` what a later remark says of it: "is wooden", or of its `part`: "with red covers".
 
-    The colour of a part that shows little ("a mug with a blue handle") is not the object's main colour.
+    The colour of a part that shows little ("a mug with a blue handle") is not the object's main colour, and that of
+    what is only put on it ("a white dog with orange bows") is none of its colours.
     """
     own = group.modifiers
     colours = (*told.colours, *told.palette[: 1 if len(group.items) > 1 else None])
     if told.colours and not part and _inherited(group):
         own = replace(own, colours=())
     adjectives = told.adjectives
-    if part and not own.colours and part not in lexicon.MAIN_PARTS:
+    if part and part not in lexicon.MAIN_PARTS and (not own.colours or part in _PUT_ON):
         adjectives, colours = (*adjectives, *(f"{colour}-{part}" for colour in colours)), ()
     group.modifiers = replace(
         own.marked_as(told),

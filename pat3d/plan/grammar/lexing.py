@@ -18,7 +18,7 @@ _IRREGULAR = {
     "mice": "mouse", "knives": "knife", "loaves": "loaf", "leaves": "leaf", "shelves": "shelf", "halves": "half",
     "scarves": "scarf", "wolves": "wolf", "geese": "goose", "feet": "foot", "teeth": "tooth", "children": "child",
     "men": "man", "women": "woman", "people": "person", "dice": "die", "cacti": "cactus", "wives": "wife",
-    "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman",
+    "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman", "tvs": "tv",
 }  # fmt: skip
 _SPELLED = {
     word: str(number) for number, word in enumerate(

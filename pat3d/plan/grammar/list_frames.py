@@ -8,13 +8,16 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexicon import STANDING
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER
 from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _HAVING = frozenset({"has", "have", "holds", "hold", "carries", "carry", "contains", "contain", "bears", "bear"})
 _ONE = frozenset({"a", "an", "one", "the"})
+_OF_KINDS = frozenset({"has", "have", "contains", "contain", "includes", "include"})
+_EACH_SHELF = [["on", each, "shelf"] for each in ("each", "every")]
+_SHELVED = ("bookshelf", "cabinet", "wardrobe", "dresser", "fridge", "tv stand", "cart")
 _ROWS = frozenset({"row", "line"})
 _ON = (("on",), ("atop",), ("on", "top", "of"))
 _PLACES = {
@@ -29,7 +32,42 @@ _PLACES = {
 
 def listed_plainly(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence without the frames around a list."""
-    return _form_ahead(_rows_of(_at_places_of(_not_only(_on_itself(tokens, nouns))), nouns))
+    tokens = _on_each_shelf(_of_what_kind(_not_only(_on_itself(tokens, nouns)), nouns), nouns)
+    return _form_ahead(_rows_of(_at_places_of(tokens), nouns))
+
+
+def _of_what_kind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a dish of food that has rice and beans" as "a dish with rice and beans": that is the food."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4):
+        kind = {words[at], *singulars(words[at])} & lexicon.GENERICS.keys() and not nouns.match([words[at]])
+        after = at + 3
+        if not kind or words[at + 1] not in ("that", "which") or words[at + 2] not in _OF_KINDS:
+            continue
+        start = after + (words[after] in lexicon.DETERMINERS | lexicon.NUMBERS.keys())
+        end = _end_of_name(words, start, nouns)
+        placed = end and link_at(tokens, end) and words[end + link_at(tokens, end)] in lexicon.PRONOUNS
+        if not end or placed:
+            # "a table with food that has a vase on it"
+            continue
+        held = at > 0 and words[at - 1] in ("of", "with")
+        told = replace(tokens[at + 1], text="with" if held else "including", end=tokens[at + 2].end)
+        return [*tokens[: at - 1 if held else at + 1], told, *tokens[after:]]
+    return list(tokens)
+
+
+def _on_each_shelf(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "two bookshelves with four vases on every shelf" as "... on each": a shelf of theirs is no other.
+
+    There are as many for each of them as for a shelf; that the shelf is none of its own a note says.
+    """
+    words = [token.text for token in tokens]
+    at = next((n for n in range(3, len(words) - 3) if words[n : n + 3] in _EACH_SHELF), 0)
+    known = [found for n in range(1, at) if (found := nouns.match(words[n : n + 1])) is not None]
+    owners = [found for found in known if nouns.of_class(found.noun, _SHELVED)]
+    if not at or {"shelf", "shelves"} & {*words[:at]} or len(owners) != 1 or not owners[0].plural:
+        return list(tokens)
+    return [*tokens[: at + 1], replace(tokens[at + 1], text="each"), *tokens[at + 3 :]]
 
 
 def _on_itself(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -92,10 +92,20 @@ class Remarks:
         at = 0
         while at < len(self._words):
             size = next((n for n in (3, 2, 1) if self._nouns.match(self._words[at : at + n])), 0)
-            if size:
+            if size and not (size == 1 and self._colours(at)):
                 made[at] = size
             at += size or 1
         return made
+
+    def _colours(self, at: int) -> bool:
+        """Whether the fruit at `at` is the colour of what no table has: "with orange bows", but not "an orange"."""
+        after = self._words[min(at + 1, len(self._words) - 1)]
+        forms = {after, *singulars(after)}
+        plain = after.isalpha() and not (
+            forms & lexicon.PORTIONS or after in JOINERS | FINITE or link_at(self._tokens, at + 1)
+        )
+        several = bool(singulars(after)) and (not at or self._words[at - 1] not in lexicon.DETERMINERS | {"one"})
+        return is_colour_word(self._words[at]) and plain and several and self._nouns.match([after]) is None
 
     def _empty(self, start: int, end: int) -> bool:
         """Whether nothing is named or counted from token `start` up to `end`."""

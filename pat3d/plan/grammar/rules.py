@@ -302,9 +302,9 @@ class Grammar(Listing):
         return replace(named, cat="VL", start=verb.start, cost=named.cost + cost)
 
     def _equation(self, named: Node, what: Node) -> Node | None:
-        """Read "The items are a lamp and a mug"."""
+        """Read "The items are a lamp and a mug"; in "around them are a cup and a mug" they are something else."""
         kinds = {self._phrase(head).kind for head in named.heads}
-        if not kinds & {"items", "pieces", "pronoun", "background"}:
+        if not kinds & {"items", "pieces", "pronoun", "background"} or "them" in self._chunks[named.start].words:
             return None
         facts = (*named.facts, *what.facts, *(("bind", head, what.heads) for head in named.heads))
         return Node("L", named.start, named.cost + what.cost, what.heads, facts, "", frozenset({"finite"}))

@@ -48,6 +48,8 @@ _GOING = frozenset({"fall", "drop", "roll", "fly", "go", "run", "jump", "slide",
     "build",
     "miss", "lack", "have", "point", "face", "lean", "hang", "replace", "exchange", "divide", "split"})  # fmt: skip
 """Verbs that say where something is, or how much of it."""
+_REACHING = frozenset({"reach", "touch", "sniff", "lick", "smell", "greet", "catch", "inspect"})
+"""Deeds that bring one thing to another."""
 _PARTICLES = frozenset({"up", "over", "down"})
 _NO_VERBS = frozenset(
     {"lacks", "needs", "missing", "lacking", "becomes", "means", "as", "towards", "besides", "is", "has"}
@@ -115,11 +117,16 @@ class Tails(Remarks):
         made: list[Span] = []
         for at in range(1, len(self._words) - 2):
             end = at + 1 + (self._words[at + 1] in _PARTICLES)
+            # "leaps to reach a counter"
+            reaches = self._words[at + 1] == "to" and self._words[at + 2] in _REACHING
+            end += 2 * reaches
             near = 0 <= number - self._tokens[at].number <= 4 and not self._tokens[at].mark
             word, verb = self._words[at], base_verb(self._words[at])
             acts = verb is not None or (word.endswith(("s", "ed")) and not link_at(self._tokens, at))
-            plain = verb not in _GOING and word not in MOVING | FINITE | _NO_VERBS and at not in self._named
-            if near and acts and plain and self._behind_noun(at) and self._words[at - 1] != "," and self._begins(end):
+            plain = reaches or (verb not in _GOING and word not in MOVING | FINITE | _NO_VERBS)
+            plain = plain and at not in self._named and self._words[at - 1] != ","
+            leads = self._begins(end) or (reaches and self._leads(end))
+            if near and acts and plain and self._behind_noun(at) and leads:
                 made.append((at, end))
         return made
 

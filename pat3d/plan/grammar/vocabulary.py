@@ -155,11 +155,14 @@ class Nouns:
                         break
                     found, size = plain, size - 1
                 return found, frozenset(range(len(words) - size, len(words)))
+        plain = self.match(words[-1:])
         for position in range(last - 1):
             if found := self.match([words[position], words[-1]]):
-                return found, frozenset({position, last})
-        found = self.match(words[-1:])
-        return None if found is None else (found, frozenset({last}))
+                described = self.own(found.noun) and is_modifier(words[position])
+                if not (described and plain is not None and plain.noun == found.noun):
+                    # "A small white dog" is a dog that is small as well.
+                    return found, frozenset({position, last})
+        return None if plain is None else (plain, frozenset({last}))
 
     def learn(self, noun: str, like: str) -> None:
         """`noun`, which a server is to make, is judged as the catalogue's `like` is (empty for none)."""
