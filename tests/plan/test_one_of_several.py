@@ -115,7 +115,8 @@ def test_how_many_is_said_behind_or_by_what_they_come_in(sentence: str, noun: st
     [
         ("The owl is on the middle one of three books between two bookends.",
          "book 1, book 2, book 3, bookend 1, bookend 2, owl",
-         "bookend 1 left_of book 1, bookend 2 right_of book 1, owl on book 2"),
+         "book 2 left_of book 3, book 2 right_of book 1, bookend 1 left_of book 1, bookend 2 right_of book 1, "
+         "owl on book 2"),
         ("One of three chairs next to a table has a cushion on it.", "chair 1, chair 2, chair 3, cushion, table",
          "chair 1 next_to table, chair 2 next_to table, chair 3 next_to table, cushion on chair 1"),
         ("A lamp, one of the books lying next to it.", "book 1, book 2, book 3, lamp", "book 1 next_to lamp"),

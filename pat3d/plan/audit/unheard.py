@@ -20,6 +20,9 @@ _COLOURS = frozenset({"color", "colors", "colour", "colours", "different", "vari
 _DRAPED = frozenset({"draped", "drapes", "drape", "slung", "hooked"})
 """Ways of hanging."""
 _SIDES = frozenset({"left", "right", "front", "behind"})
+_ALONG = frozenset({"left-hand", "right-hand", "central", "fourth", "fifth"})
+_ACROSS = frozenset({"rear", "rearmost", "backmost", "hindmost", "frontmost", "foremost", "central", "fourth", "fifth"})
+"""Places of likes beside each other, and of likes one behind the other."""
 _IN_ROWS = frozenset({"form", "forms", "neat", "tidy", "orderly", "straight", "even"})
 """What a row does and is."""
 
@@ -70,7 +73,7 @@ def _goes_without_saying(words: Sequence[str], at: int) -> bool:
     counted = word == "number" and before == "the" and after == ["of"]
     sided = word == "respectively" and len(_SIDES & {*words[:at]}) > 1
     sided = sided or (word == "apart" and after == ["from"])
-    return flat or counted or sided or (word in ("farthest", "furthest") and after in (["left"], ["right"]))
+    return flat or counted or sided or (word in ("farthest", "furthest") and after in (["left"], ["right"], ["to"]))
 
 
 def _shared(it: Compared, before: Sequence[str]) -> bool:
@@ -88,6 +91,7 @@ def _shapes(it: Compared) -> frozenset[str]:
     heaped = any(len(carriers_of(name, it.plan.relations)) > 1 for name in nouns)
     left, right = ({rel.parent for rel in it.plan.relations if rel.kind == side} for side in ("left_of", "right_of"))
     ended = bool(left & right) or any(one.kind == "at_ends" for one in it.plan.arrangements)
+    beside = {kind for one, kind, other in it.edges if nouns.get(one) == nouns.get(other)}
     colours = {obj.name: obj.colours for obj in it.plan.objects}
     alternating = any(
         len({colours[name] for name in one.objects}) > 1
@@ -104,6 +108,8 @@ def _shapes(it: Compared) -> frozenset[str]:
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
         | frozenset({"ends"} if ended else ())
+        | (_ALONG if "left_of" in beside else frozenset[str]())
+        | (_ACROSS if "behind" in beside else frozenset[str]())
         | frozenset(_IN_ROWS if any(one.kind == "row" for one in it.plan.arrangements) else ())
     )
 

@@ -223,7 +223,7 @@ class Contrast(Pronouns):
         like = replace(items[0].group.phrase, words=phrase.words, modifiers=phrase.modifiers, definite=False,
                        count=phrase.count or 1)  # fmt: skip
         items = list(self._maker.make(self._world, like).items)
-        items[0].place = position(phrase)
+        items[0].place, items[0].placed_by = position(phrase), phrase.words
         line_up(self._world, items[0])
         return items
 

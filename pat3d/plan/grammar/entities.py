@@ -26,6 +26,8 @@ class Item:
     """What the prompt says of it alone."""
     place: str = ""
     """By which it is told from its like: "left" for "the left box"."""
+    placed_by: str = ""
+    """The words that tell it so: "the left box"."""
 
 
 @dataclass(kw_only=True, eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from pat3d.errors import PromptError
-from pat3d.plan.grammar import apart, arranging, covers, lexicon, ranks
+from pat3d.plan.grammar import apart, arranging, covers, lexicon, orders, ranks
 from pat3d.plan.grammar.entities import Edge, Group, Item, Sided
 from pat3d.plan.grammar.lexing import normalise, singulars, tokenise
 from pat3d.plan.grammar.measures import LARGEST, SMALLEST
@@ -66,6 +66,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     _pair_sides(world)
     _share_supports(world)
     arranging.settle(world, prompt)
+    orders.settle(world, prompt)
     objects = _objects(world, nouns)
     names = {item: obj.name for item, obj in objects.items()}
     relations = [*_supports(world, names), *arranging.further_carriers(world, names), *_laterals(world, names)]

@@ -6,20 +6,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
+from pat3d.plan.grammar.by_place import ByPlace
 from pat3d.plan.grammar.described import tell
-from pat3d.plan.grammar.displaced import NEARNESS
 from pat3d.plan.grammar.entities import Group, Item
-from pat3d.plan.grammar.further import Further
 from pat3d.plan.grammar.likes import SHAPES, measured
 from pat3d.plan.grammar.matching import (
     ALONG,
     COUNTED,
     OPPOSITE,
-    PLACES,
     SAME,
     colours_of,
     is_numbered,
-    line_up,
     position,
     same_noun,
 )
@@ -41,7 +38,7 @@ def _told_apart(group: Group) -> bool:
     return len(group.items) > 1 and not group.modifiers.colours and any(colours_of(item) for item in group.items)
 
 
-class Members(Further):
+class Members(ByPlace):
     """Chooses members among what was named."""
 
     def _rest_of(self, phrase: Phrase) -> list[Item]:
@@ -99,42 +96,6 @@ class Members(Further):
         if wanted:
             return items[: phrase.count or 1]
         return self._singled(items, phrase, told)
-
-    def _singled(self, items: list[Item], phrase: Phrase, at: int | None) -> list[Item]:
-        """The one of several that "the cup to the left of the plate" means: one that was not singled out before.
-
-        It is told by the relation behind chunk `at`; where nothing tells it ("the cup") it is the one singled out last.
-        """
-        world, group = self._world, items[0].group
-        named = phrase.words.lower().startswith("the ") and phrase.count in (None, 1) and not phrase.each
-        before = [item for item in world.singled if item in items]
-        # "the container of the same color": one in turn
-        matched = at is None and not before and len({colours_of(item) for item in items}) > 1
-        if not named or matched or not (group.phrase.plural and group.counted) or group.multiplied or group.cycle:
-            return items
-        if at is None:
-            return before[-1:] or items[:1]
-        free = next((item for item in items if item not in before), items[-1])
-        one = next((item for item in items if self._is_there(at, item)), free)
-        world.singled.append(one)
-        if NEARNESS & {*(place := self._chunks[at + 1].text.lower()).split()}:
-            said = f"{phrase.words} {place} {self._chunks[at + 2].text}"
-            world.note(f'"{said}" is read as one of {len(group.items)}, next to it; how near the others are is open.')
-        return [one]
-
-    def _at(self, items: list[Item], where: str, phrase: Phrase) -> list[Item]:
-        index = len(items) // 2 if where in ("middle", "center", "centre") else PLACES[where]
-        if not -len(items) <= index < len(items):
-            if where in COUNTED and (more := self._next_of(items[0].group, index, phrase)):
-                return more
-            self._world.note(f'"{phrase.words}": there are only {len(items)}.')
-            return items[-1:]
-        item = items[index]
-        item.place = where
-        tell(item, phrase.modifiers)
-        if not item.group.rows and item.group.height == 1:
-            line_up(self._world, item)
-        return [item]
 
     def _members(self, at: int, phrase: Phrase) -> list[Item]:
         """The members that a headless phrase ("one", "the red one", "the other two") speaks of."""

@@ -65,7 +65,7 @@ class References(Members):
             if phrase.each and phrase.count is None:
                 world.note(f'"{phrase.words}": of how many is not said; {len(group.items)} assumed.')
             self._note_more(group)
-            group.items[0].place = position(phrase)
+            group.items[0].place, group.items[0].placed_by = position(phrase), phrase.words
             self.known[at] = self._the_one(group.items, phrase)
             if position(phrase) in ALONG and len(group.items) == 1:
                 line_up(self._world, group.items[0])
@@ -139,6 +139,8 @@ class References(Members):
             group in besides or group.cycle or self._elsewhere(at, group) for group in likes
         ):  # fmt: skip
             return [item for group in likes for item in group.items]
+        if one := self._by_place([group for group in likes if group not in besides], phrase):
+            return one
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())

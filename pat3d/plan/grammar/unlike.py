@@ -46,3 +46,14 @@ def one_of_unlike(world: World, together: Sequence[Item], where: str) -> list[It
         rank[right] += 1
     ordered = sorted(row, key=lambda item: rank[item])
     return [ordered[_PLACES[where] if not middle else len(row) // 2]]
+
+
+def from_the_front(world: World, row: Sequence[Item]) -> list[Item]:
+    """`row` as it is said to stand from front to back; what is not told of as it was named."""
+    rank = dict.fromkeys(row, 0)
+    for edge in world.laterals:
+        if edge.kind in ("in_front_of", "behind") and edge.child in rank and edge.parent in rank:
+            back, front = (edge.parent, edge.child) if edge.kind == "in_front_of" else (edge.child, edge.parent)
+            rank[front] -= 1
+            rank[back] += 1
+    return sorted(row, key=lambda item: rank[item])
