@@ -95,3 +95,12 @@ def test_before_you_do_one_thing_another_is_done_first():
     plan = PLANNER.plan("Before you put the marker in the box, put the brush in the cup.")
     assert not plan.relations
     assert any("place:brush:cup, place:marker:box" in note for note in plan.notes)
+
+
+def test_the_first_two_are_told_one_by_one():
+    prompt = "Four cups on a tray. The first two hold a spoon, the third a pencil and the last is empty."
+    inside = {(rel.child, rel.parent) for rel in GrammarPlanner().plan(prompt).relations if rel.kind == "in"}
+    assert inside == {("spoon 1", "cup 1"), ("spoon 2", "cup 2"), ("pencil", "cup 3")}
+    prompt = "Five bowls are on a table. The first three contain an egg and the others are empty."
+    inside = {rel.parent for rel in GrammarPlanner().plan(prompt).relations if rel.kind == "in"}
+    assert inside == {"bowl 1", "bowl 2", "bowl 3"}

@@ -15,6 +15,7 @@ from pat3d.plan.grammar.guests import for_guests
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE, LINKS
 from pat3d.plan.grammar.modifiers import is_colour_word
+from pat3d.plan.grammar.number_words import ORDINALS
 from pat3d.plan.grammar.talk import spoken_before
 from pat3d.plan.grammar.towers import so_that
 from pat3d.plan.grammar.unmade import base_verb
@@ -55,6 +56,8 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
         words = [each.text for each in tokens[at + 1 : at + 5]]
         # "Two buckets: the green one holds three balls, the red one is empty."
         clause = len(words) == 4 and words[0] == "the" and words[2] == "one" and words[3] in FINITE
+        # "Four jars: the first contains nuts, the second is empty"
+        clause = clause or (len(words) == 4 and words[0] == "the" and words[1] in ORDINALS and words[2] in FINITE)
         told = token.text == "," and any(each.text in FINITE for each in made[-1])
         begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
         begins = begins or ((_tells_state(tokens, at, nouns) or _of_another(tokens, at)) and any(map(_holds, made[-1])))

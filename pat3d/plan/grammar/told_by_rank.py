@@ -25,7 +25,7 @@ _NEAR = (("nearest", "to"), ("nearest",), ("closest", "to"), ("farthest", "from"
 
 def by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with those that were counted in a sentence before told by the words for their ranks."""
-    told = _another_holds(_front_and_back(tokens))
+    told = _another_holds(_front_and_back(_first_few(tokens)))
     return _nearest(_in_turn(_named(told, nouns), nouns), nouns)
 
 
@@ -67,6 +67,26 @@ def _front_and_back(tokens: Sequence[Token]) -> list[Token]:
             elif told and (words[behind] in lexicon.COPULAS or is_modifier(words[behind]) or words[behind] == "holds"):
                 made[at + 1 : behind] = [replace(made[at + 1], text=told[0]), replace(made[behind - 1], text="one")]
         at += 1
+    return made
+
+
+def _first_few(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "the first two hold a pen, ..." as "the first holds a pen, the second holds a pen, ..."."""
+    made = list(tokens)
+    for at in range(len(tokens) - 6, 0, -1):
+        words = [token.text for token in made[at : at + 4]]
+        many = number_of(words[2])
+        few = words[:2] == ["the", "first"] and 1 < many <= len(ORDINALS) and words[3] in _HOLDING
+        before = made[at - 1]
+        if not few or not (before.mark or before.text in ("and", "while")):
+            continue
+        end = next(n for n in range(at + 4, len(made)) if made[n].mark or made[n].text in ("and", "while", "each"))
+        behind = end + (made[end].text == "each")
+        told: list[Token] = []
+        for rank in ORDINALS[:many]:
+            said = [replace(made[at], text=word) for word in ("the", rank, _HOLDING[words[3]])]
+            told += [*([replace(made[at], text=",", mark=True)] if told else []), *said, *made[at + 4 : end]]
+        made[at:behind] = told
     return made
 
 
