@@ -295,8 +295,9 @@ class _Auditor(Compared):
 
     @staticmethod
     def _one_of(mention: Mention, mentions: Sequence[Mention]) -> bool:
-        """Whether "a cup" may be one of those that a sentence before has named: the plan says where it is not."""
-        return mention.number == 1 and any(other.plural and other.part < mention.part for other in mentions)
+        """Whether "a cup", "two cups" may be of those that a sentence before has named: the plan says where not."""
+        before = [other for other in mentions if other.plural and other.part < mention.part]
+        return mention.number is not None and any(mention.number < (other.number or 2) for other in before)
 
     def _listed(self, mention: Mention) -> bool:
         """Whether what `mention` counts is listed behind it: "three cans: ...", "the tools (a saw and a file)"."""

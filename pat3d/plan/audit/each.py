@@ -25,6 +25,13 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
             # "Every cup but one": of one less.
             continue
         before = [mention for mention in it.said.mentions if mention.end <= at]
+        number = NUMBERS.get(it.said.words[at - 1], 0)
+        if number > 1 and not place[:1].isalnum() and [len(it.which(one)) for one in before[-2:]] == [number, number]:
+            # "Four knives and four spoons, four each, on a mat": there are four of each.
+            continue
+        if place in NUMBERS and it.said.words[at + 2 : at + 3] == ["high"]:
+            # "Two stacks of boxes, each three high, on a pallet"
+            continue
         behind = [mention for mention in it.said.mentions if mention.start > at]
         if place in ENDS or place in CORNERS:
             # "A bench with a plant at either end", but not "two lamps, one at either side"

@@ -152,9 +152,11 @@ PARTICIPLES = frozenset({"holding", "containing", "carrying", "supporting", "fil
 
 POURED = frozenset({"soy sauce", "ketchup", "mustard", "mayonnaise", "hot sauce", "honey", "syrup", "vinegar",
                     "milk", "olive oil", "tomato sauce", "peanut butter", "salad dressing", "sugar box",
-                    "salt shaker"})  # fmt: skip
+                    "salt shaker", "milk carton", "juice bottle", "beer bottle", "wine bottle",
+                    "cereal box"})  # fmt: skip
 ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", "cup", "mug", "glass", "bread",
-                       "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg"})  # fmt: skip
+                       "burger", "pancake", "waffle", "hot dog", "sandwich", "pizza", "fish", "egg",
+                       "fruit bowl", "jar", "wine glass", "tumbler", "teacup", "jug", "pitcher"})  # fmt: skip
 """What of something poured is meant to be on, or in."""
 PIECES = frozenset({"slice", "piece", "wedge", "chunk"})
 UNCOUNTED = frozenset({"luggage", "furniture", "jewelry", "paper", "cloth", "fruit", "equipment", "chalk", "art"})

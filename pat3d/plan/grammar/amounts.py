@@ -16,9 +16,9 @@ from pat3d.plan.grammar.links import FINITE
 from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.number_words import counted_before, is_number, number_of
 from pat3d.plan.grammar.outnumbered import outnumbering
+from pat3d.plan.grammar.stacked_high import stacked_high
 from pat3d.plan.grammar.vocabulary import Nouns
 
-_BUILT = frozenset({"tower", "stack", "pile", "column"})
 _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
 _OF_SEVERAL = {
     "has": "have", "holds": "hold", "contains": "contain", "carries": "carry", "is": "are", "was": "were",
@@ -48,7 +48,7 @@ def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
     tokens = from_one_side(outnumbering(tokens, nouns), nouns)
-    whole = _one_and_others(_on_the_other(_on_both(_high(_all_but(_every_but(_fractions(tokens)))))))
+    whole = _one_and_others(_on_the_other(_on_both(stacked_high(_all_but(_every_but(_fractions(tokens)))))))
     return without_shares(counted_in_each(shared_by_colour(whole, nouns), nouns))
 
 
@@ -162,31 +162,6 @@ def _one_and_others(tokens: Sequence[Token]) -> list[Token]:
     total = replace(tokens[0], text=str(number_of(words[other + 1]) + 1))
     several = replace(tokens[verb - 1], text=f"{words[verb - 1]}s")
     return [tokens[0], of, the, total, *tokens[1 : verb - 1], several, *tokens[verb:]]
-
-
-def _high(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "eight cans are stacked two high" as "eight cans are in four stacks of two"."""
-    words = [token.text for token in tokens]
-    for at in range(3, len(words) - 1):
-        start = at - 1 - bool(singulars(words[at - 1]))
-        built = next((n for n in range(start - 1, 0, -1) if words[n] in _BUILT and words[n + 1] == "of"), 0)
-        plain = built and not any(is_number(word) or word == "." for word in words[built:start])
-        if words[at] == "high" and plain and number_of(words[start]):
-            # "A tower of red blocks, six blocks high"
-            kept = [*tokens[: built + 2], tokens[start], *tokens[built + 2 : start - (words[start - 1] == ",")]]
-            return [*kept, *tokens[at + 1 :]]
-    for at in range(1, len(words) - 2):
-        number = at + 1 + (words[at + 1] == ",")
-        high = number_of(words[number])
-        if words[at] not in ("stacked", "piled") or not high or words[number + 1] != "high":
-            continue
-        total = counted_before(tokens, at) or high
-        if total % high:
-            continue
-        told = ("in", "a", "stack") if total == high else ("in", str(total // high), "stacks", "of", str(high))
-        counted = [replace(tokens[at], text=word) for word in told]
-        return [*tokens[:at], *counted, *tokens[number + 2 :]]
-    return list(tokens)
 
 
 def _on_both(tokens: Sequence[Token]) -> list[Token]:
@@ -380,15 +355,17 @@ def _equal(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _of_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "mugs and bowls, three of each," as "three mugs and three bowls"."""
+    """`tokens` with "mugs and bowls, three of each," and "..., three each," as "three mugs and three bowls"."""
     words = [token.text for token in tokens]
-    at = next((n for n in range(1, len(words) - 3)
-               if is_number(words[n]) and words[n + 1 : n + 3] == ["of", "each"] and tokens[n + 3].mark),
-              None)  # fmt: skip
-    if at is None or words[at - 1] not in (",", ":", "-"):
+    at = next((n for n in range(1, len(words) - 2) if is_number(words[n]) and words[n - 1] in (",", ":", "-")
+               and ("each" in words[n + 1 : n + 2] or words[n + 1 : n + 3] == ["of", "each"])), None)  # fmt: skip
+    end = 0 if at is None else at + 2 + (words[at + 1] == "of")
+    heads = [n for n in range((at or 1) - 1) if singulars(words[n]) and nouns.match([words[n]])]
+    if at is None or not tokens[min(end, len(tokens) - 1)].mark:
         return list(tokens)
-    made = [*tokens[: at - 1], *tokens[at + 3 + (words[at + 3] == ",") :]]
-    heads = [n for n in range(at - 1) if singulars(words[n]) and nouns.match([words[n]])]
+    if words[at + 1] == "each" and not _counts_kinds(words, heads[-2:], number_of(words[at])):
+        return list(tokens)
+    made = [*tokens[: at - 1], *tokens[end + (words[end] == ",") :]]
     for head in reversed(heads[-2:]):
         first = head
         while first and is_modifier(words[first - 1]) and not is_number(words[first - 1]):
@@ -396,3 +373,20 @@ def _of_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if not first or not is_number(words[first - 1]):
             made.insert(first, replace(tokens[at], start=tokens[first].start, end=tokens[first].start))
     return made
+
+
+def _counts_kinds(words: Sequence[str], heads: Sequence[int], number: int) -> bool:
+    """Whether ", three each" says how many there are of two kinds, and not what each of several has.
+
+    They are listed at the two `heads`, with that `number` or with none.
+    """
+    if len(heads) < 2 or not number:
+        return False
+    between = [word for word in words[heads[0] + 1 : heads[1]] if not is_modifier(word) and not is_number(word)]
+    counts: list[int] = []
+    for head in heads:
+        first = head
+        while first and is_modifier(words[first - 1]) and not is_number(words[first - 1]):
+            first -= 1
+        counts.append(number_of(words[first - 1]) if first else 0)
+    return between in (["and"], [",", "and"], [","]) and {*counts} <= {0, number}

@@ -80,6 +80,15 @@ def share(
     return "in turn" if len(groups) == len(carriers) > 2 and single else "each"
 
 
+def on_top_of_both(
+    world: World, words: Sequence[str], named: Sequence[Phrase], children: Sequence[Item], parents: Sequence[Item]
+) -> bool:
+    """Whether one thing lies on two: "two boxes, and a tray on top of both", and no lamp on both of two tables."""
+    topped = tuple(words) in (("on", "top", "of"), ("atop",), ("atop", "of"))
+    both = all(one.kind == "pronoun" and one.words.lower().startswith("both") for one in named)
+    return topped and both and len(children) == 1 and len(parents) == 2 and not any(map(world.on_floor, parents))
+
+
 def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> list[Item]:
     """As many of `children` for each of `owners`; of what is named by a bare plural two at least."""
     several = len(world.tops(owners))

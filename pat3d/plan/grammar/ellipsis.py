@@ -34,7 +34,7 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] =
     `known` are the phrases of what was named before them.
     """
     told = _from_below(_described(_gapped(_full(_one_more(chunks, known, nouns)))))
-    told = likes_named(paralleled(told, nouns), nouns, known)
+    told = likes_named(paralleled(told, nouns, known), nouns, known)
     return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns)))
 
 

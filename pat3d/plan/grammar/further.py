@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.contrast import Contrast
 from pat3d.plan.grammar.entities import Group, Item
+from pat3d.plan.grammar.matching import position
 from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.shared_out import SharedOut
 from pat3d.scene.relations import SUPPORT_KINDS
 
 
-class Further(Contrast):
+class Further(SharedOut):
     """Makes what a sentence names as one more."""
 
     def _another(self, at: int, phrase: Phrase) -> list[Item]:
@@ -37,6 +38,27 @@ class Further(Contrast):
         more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
+
+    def _other_carrier(self, at: int, phrase: Phrase) -> list[Item]:
+        """What "the one" at chunk `at`, told by its place, is where something else of its kind was told to carry.
+
+        "The lamp is on the table left of the bed. The clock is on the one right of it.": another table, or the other
+        where there are two.
+        """
+        link = self._chunks[at - 1].link if at > 1 else None
+        behind = self._chunks[at + 1].kind if at + 1 < len(self._chunks) else ""
+        if link is None or link.kind not in SUPPORT_KINDS or behind not in ("rel", "place") or position(phrase):
+            return []
+        told = {item for items in self.known.values() for item in items}
+        if (like := self._carrier_like(at)) is not None:
+            return [item for item in like.items if len(like.items) > 1 and item not in told][:1]
+        subject, own = self._world.subject[:1], next(iter(self.known.get(0, ())), None)
+        edge = self._world.supports.get(subject[0]) if subject else None
+        if edge is None or own is None or own.group is subject[0].group or edge.weak or edge.kind != link.kind:
+            return []
+        if len(edge.parent.group.items) > 1:
+            return [item for item in edge.parent.group.items if item is not edge.parent][:1]
+        return self._one_like([edge.parent], phrase)
 
     def _next_of(self, group: Group, index: int, phrase: Phrase) -> list[Item]:
         """The fourth where three were named: "three mugs hang on a rack; the fourth stands next to it"."""

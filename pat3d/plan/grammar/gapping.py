@@ -15,6 +15,7 @@ from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE, LINKS, SIDES
 from pat3d.plan.grammar.modifiers import TOLD_BY_PLACE, is_colour_word, is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _JOINTS = frozenset({",", "and", "while", "but", "whereas", ":"})
 _ONES = frozenset({"one", "ones"})
@@ -23,13 +24,16 @@ _TOLD = (
 )
 """Words between "the" and a noun that is not said."""
 _OF_ONE = {"have": "has", "hold": "holds", "contain": "contains", "carry": "carries", "bear": "bears"}
+_REACH = 8
+"""Words of a place: "to the right of the small red box"."""
+_TELLING = lexicon.RELATIVES | lexicon.STANDING | {"each", "every"}
 _SIDED = frozenset({"left", "right"})
 _ARTICLES = frozenset({"a", "an", "some", "the"})
 
 
 def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the verb in every clause that leaves it out."""
-    tokens = _same_landmark(_apposed(tokens))
+    tokens = _set_apart(_same_landmark(_apposed(tokens)), nouns)
     made: list[Token] = []
     verb: Token | None = None
     copula: Token | None = None
@@ -68,6 +72,31 @@ def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             made += [*_described(tokens[at:end], tokens[:at], nouns), *there]
             at = after
     return made
+
+
+def _set_apart(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the mug is behind the jar and the fork left of both" as "..., and the fork left of both".
+
+    What has a place beside something is told of, and is no second landmark.
+    """
+    words = [token.text for token in tokens]
+    for at in (at for at, word in enumerate(words) if word == "and"):
+        stands = (n for n in range(max(at - _REACH, 1), at) if words[n - 1] in lexicon.STANDING and link_at(tokens, n))
+        link = next(stands, at)
+        place = next((n for n in range(at + 2, min(at + _REACH, len(words))) if link_at(tokens, n)), 0)
+        behind = place + link_at(tokens, place)
+        beside = LINKS.get(tuple(words[place:behind])) if place else None
+        near = words[link + link_at(tokens, link) : at]
+        if not near or words[link] == "between" or near[0] == "both" or beside is None or words[behind] == "it":
+            continue
+        end = next((n for n in range(behind, len(words)) if tokens[n].mark or words[n] == "and"), len(words) - 1)
+        plain = not any(tokens[n].mark for n in range(link, end))
+        plain = plain and not any(link_at(tokens, n) for n in (*range(at - len(near), at), *range(behind, end)))
+        plain = plain and not _TELLING & {*words[link:end]} and words[at + 1] in lexicon.DETERMINERS
+        plain = plain and all(nouns.longest(said) for said in (near, words[at + 1 : place]))
+        if plain and beside.kind in LATERAL_KINDS and end > behind:
+            return [*tokens[:at], replace(tokens[at], text=",", end=tokens[at].start, mark=True), *tokens[at:]]
+    return list(tokens)
 
 
 def _of_the_kind(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, str] | None:

@@ -10,7 +10,7 @@ from pat3d.plan.grammar.account import miscounted, words_left
 from pat3d.plan.grammar.chart import Node
 from pat3d.plan.grammar.contradictions import refuse_own
 from pat3d.plan.grammar.described import describe, tell
-from pat3d.plan.grammar.distribution import as_many, for_each, share
+from pat3d.plan.grammar.distribution import as_many, for_each, on_top_of_both, share
 from pat3d.plan.grammar.entities import Item
 from pat3d.plan.grammar.holding import Holding
 from pat3d.plan.grammar.links import ACROSS, Link
@@ -299,6 +299,9 @@ class Interpreter(Holding):
         beside = link.kind in LATERAL_KINDS and link.manner in ("place", "half")
         carrying = having or link.kind in SUPPORT_KINDS or link.manner == "under"
         of_all = self._said.speaks_of_each(parent_heads, carrying=carrying)
+        spoken = [self._chunks[head].named for head in parent_heads]
+        if of_all and on_top_of_both(self._world, self._chunks[at].words, spoken, children, parents):
+            link = replace(link, says="across")
         had = share(self._world, link, parents, children, all_of=of_all, having=having)
         if had == "each" and (having or link.kind in SUPPORT_KINDS):
             self._relating.relate(for_each(self._world, parents, children), link, parents)

@@ -121,6 +121,8 @@ class Members(ByPlace):
         if phrase.definite and not phrase.plural and (there := self._told_by_side(at)):
             # "A cup behind the plate and a cup behind the jar. The one behind the plate is red."
             return there
+        if phrase.words.lower() == "the one" and (carrier := self._other_carrier(at, phrase)):
+            return carrier
         counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.

@@ -6,7 +6,7 @@ something is on in the other, and so is what each is about. The noun that stands
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunks import Chunk
@@ -23,14 +23,23 @@ _HARDLY = 1.0
 """Cost of being on something from which on that is not thought of."""
 
 
-def paralleled(chunks: Sequence[Chunk], nouns: Nouns) -> list[Chunk]:
-    """`chunks` with "a blue tray" for "a blue one" where a tray of another colour stands as it does."""
+def paralleled(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] = ()) -> list[Chunk]:
+    """`chunks` with "a blue tray" for "a blue one" where a tray of another colour stands as it does.
+
+    So is "the one" which carries something, and is told by its place: one more, where the `known` are not several.
+    """
     made = list(chunks)
     for at, piece in enumerate(chunks):
         phrase = piece.phrase
-        if phrase is None or not is_coloured_one(phrase):
+        if phrase is None or not (is_coloured_one(phrase) or phrase.words.lower() == "the one"):
             continue
         start = _start(made, at)
+        if phrase.words.lower() == "the one":
+            if start and (like := _carrier_like(made, at, start)) is not None:
+                several = any(one.noun == like.noun and one.several for one in known)
+                one = phrase if several else with_noun(replace(phrase, definite=False), like, nouns)
+                made[at] = replace(piece, phrase=one)
+            continue
         if start and (like := _place_like(made, at, start) or _subject_like(made, at, start)) is not None:
             made[at] = replace(piece, phrase=with_noun(phrase, like, nouns))
     return made
@@ -105,6 +114,21 @@ def _place_like(chunks: Sequence[Chunk], at: int, start: int) -> Phrase | None:
         alike = own is not None and subject is not None and bool(own.modifiers.colours) and own.noun == subject.noun
         bare = not (one.modifiers.colours or one.definite or one.several)
         return one if bare and subject is not None and not alike else None
+    return None
+
+
+def _carrier_like(chunks: Sequence[Chunk], at: int, start: int) -> Phrase | None:
+    """What carries something in the clause before as "the one" at chunk `at` does here; None where nothing does.
+
+    "The lamp is on the table left of the bed, and the clock on the one right of it": another table, and no lamp.
+    """
+    if not _is_place(chunks, at) or chunks[at - 1].kind != "rel" or _said_before(chunks, at, start) is None:
+        return None
+    link = chunks[at - 1].relation
+    for n in range(start - 2, 0, -1) if link.kind in SUPPORT_KINDS else ():
+        one = chunks[n].phrase
+        if one is not None and one.kind == "object" and chunks[n - 1].kind == "rel" and chunks[n - 1].relation == link:
+            return None if one.several else one
     return None
 
 

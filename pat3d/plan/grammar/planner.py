@@ -23,6 +23,7 @@ from pat3d.plan.grammar.covering import covering
 from pat3d.plan.grammar.cutter import Cutter
 from pat3d.plan.grammar.denials import without_denials
 from pat3d.plan.grammar.distances import with_distances
+from pat3d.plan.grammar.drinks import of_drinks
 from pat3d.plan.grammar.ellipsis import completed
 from pat3d.plan.grammar.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.finish import finish
@@ -35,6 +36,7 @@ from pat3d.plan.grammar.lexing import Span, Token, normalise, singulars, tokenis
 from pat3d.plan.grammar.list_frames import listed_plainly
 from pat3d.plan.grammar.manners import without_manners
 from pat3d.plan.grammar.names import catalogue_names
+from pat3d.plan.grammar.neighbours import between_neighbours
 from pat3d.plan.grammar.note_items import each_at_its_place
 from pat3d.plan.grammar.numbered import ordinals
 from pat3d.plan.grammar.objects import Maker
@@ -45,6 +47,7 @@ from pat3d.plan.grammar.remarks import Remarks
 from pat3d.plan.grammar.restated import chessmen
 from pat3d.plan.grammar.rows import told_rows
 from pat3d.plan.grammar.sentences import check_language, sentences
+from pat3d.plan.grammar.shared_out import of_the_counted
 from pat3d.plan.grammar.shorthand import known_again, out_of_brackets
 from pat3d.plan.grammar.sided_names import by_side
 from pat3d.plan.grammar.similes import similes
@@ -124,7 +127,8 @@ class GrammarPlanner(Sparing):
         check_language(text)
         tokens = compounds(ordinals(text, tokenise(text), self._nouns), self._nouns)
         tokens = out_of_brackets(text, each_at_its_place(text, tokens, self._nouns), self._nouns)
-        tokens = in_full(known_again(tokens, self._nouns), self._nouns)
+        tokens = between_neighbours(known_again(of_drinks(tokens, self._nouns), self._nouns), self._nouns)
+        tokens = in_full(of_the_counted(tokens, self._nouns), self._nouns)
         tokens = subkinds(worked_out(chessmen(tokens), self._nouns), self._nouns)
         tokens = by_size(by_side(tokens, self._nouns), self._nouns)
         tokens = levels_of(by_rank(of_the_carried(tokens, self._nouns), self._nouns), self._nouns)

@@ -114,7 +114,9 @@ class References(Members):
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
         if (
-            one := self._any_of(at, phrase) or of_kind(phrase, world.groups[: world.settled], self.left)
+            one := self._any_of(at, phrase)
+            or self._of_those(at, phrase)
+            or of_kind(phrase, world.groups[: world.settled], self.left)
         ) is not None and one:
             return one
         again = self._earlier if bare else []

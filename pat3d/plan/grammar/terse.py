@@ -9,10 +9,11 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.lexing import Token, singulars
-from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.links import FINITE, LINKS, LONGEST_LINK
 from pat3d.plan.grammar.modifiers import TOLD_BY_PLACE, is_colour_word, is_modifier
 from pat3d.plan.grammar.number_words import numeral
 from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _GRID = re.compile(r"[2-9]x[2-9]")
 _FORMS = frozenset({"row", "line", "circle", "ring", "stack", "pile"})
@@ -27,7 +28,7 @@ _LOOKS = lexicon.SIZES.keys() | {"round", "square", "open", "empty", "tall", "sh
 
 def in_full(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the small words that a jotted note leaves out."""
-    told = _the(_articles(_times(_sized_grids(tokens), nouns), nouns))
+    told = _the_counted(_the(_articles(_times(_sized_grids(tokens), nouns), nouns)), nouns)
     return _are(_listed(_counted(_before(_of(told, nouns), nouns), nouns), nouns), nouns)
 
 
@@ -99,6 +100,36 @@ def _the(tokens: Sequence[Token]) -> list[Token]:
         one = at + 2 < len(tokens) and tokens[at + 1].text == "one" and not tokens[at + 2].mark
         if told and one and at and (tokens[at - 1].mark or tokens[at - 1].text == "and"):
             made.append(replace(token, text="the"))
+        made.append(token)
+    return made
+
+
+def _the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "3 flasks, 2 beakers, flasks behind beakers" as "..., the flasks behind the beakers"."""
+    made: list[Token] = []
+    free: dict[tuple[str, bool], bool] = {}
+    words = [token.text for token in tokens]
+    for at, token in enumerate(tokens):
+        name = nouns.match([token.text])
+        if name is None:
+            made.append(token)
+            continue
+        kind = name.noun, name.plural
+        size = next((n for n in range(min(LONGEST_LINK, at), 0, -1) if link_at(tokens, at - n) == n), 0)
+        placed = size > 0 and words[at - size : at] not in (["with"], ["of"])
+        link = LINKS.get(tuple(words[at + 1 : at + 1 + link_at(tokens, at + 1)]))
+        opens = words[at - 1] in (",", ";") and link is not None and not link.inverse
+        # "Five books on the shelf, books on the floor": others.
+        stays = link is not None and (link.kind in LATERAL_KINDS or free.get(kind, False))
+        if kind in free and at and (placed or (opens and stays)):
+            made.append(replace(token, text="the", end=token.start))
+        first = at
+        while first and is_modifier(words[first - 1]):
+            first -= 1
+        if first and words[first - 1] not in ("a", "an") and numeral(words[first - 1]):
+            # "Beaker x3"
+            kind = name.noun, name.plural or numeral(words[first - 1]) > 1
+            free[kind] = tokens[at + 1].mark and kind not in free
         made.append(token)
     return made
 

@@ -1,0 +1,137 @@
+"""Some of what was counted before: "two spoons and a bowl are on the tray. One spoon is in the bowl." has two spoons.
+
+A number in front of a noun counts anew in a list and beside another place: "two cups are on the table. One cup is on
+the shelf."
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.english import plural
+from pat3d.plan.grammar.contrast import Contrast
+from pat3d.plan.grammar.entities import Item
+from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.links import Link
+from pat3d.plan.grammar.modifiers import NO_MODIFIERS, is_modifier
+from pat3d.plan.grammar.number_words import is_number, number_of, numeral
+from pat3d.plan.grammar.phrases import Phrase
+from pat3d.plan.grammar.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
+
+_JOINTS = frozenset({":", ";", ",", "and", "while", "where"})
+_OPENS = ("joint", "clause")
+_TELLS = ("verb", "rel", "have", "quality", "place", "form")
+"""Chunks that say something of the subject before them."""
+_MORE = frozenset({"more", "further", "additional", "extra", "another", "other", "last", "single"})
+"""Words of what is not counted before."""
+
+
+class SharedOut(Contrast):
+    """Takes some of what was counted before as what a number counts."""
+
+    def _of_those(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """Those of a group named before that "one spoon" at chunk `at` is said of; None where it is said of further."""
+        alike = self._counted_before(at, phrase)
+        if not alike or phrase.count is None:
+            return None
+        link, landmark = self._stands(at)
+        group = alike[0].group
+        if link is not None and landmark is not None and self._apart(alike[0], link, landmark):
+            told = "is read as a further one" if phrase.count == 1 else "are read as further ones"
+            total = len(alike) + phrase.count
+            self._world.note(f'"{phrase.words}" behind "{group.words}" {told}, {total} in all.')
+            return None
+        if link is not None and (group.height > 1 or group.pyramid or group.heap):
+            return None
+        left = [item for item in self._world.telling if item in alike]
+        items = left if len(left) >= phrase.count else alike
+        self._world.telling = items[phrase.count :]
+        return items[: phrase.count]
+
+    def _counted_before(self, at: int, phrase: Phrase) -> list[Item]:
+        """Of what "one spoon" at chunk `at`, which opens a clause that tells of it, may be some; nothing without."""
+        opens = at == 0 or self._chunks[at - 1].kind in _OPENS
+        tells = at + 1 < len(self._chunks) and self._chunks[at + 1].kind in _TELLS
+        plain = phrase.superlative == NO_MODIFIERS and phrase.height is None and not phrase.part
+        anew = phrase.definite or phrase.each or phrase.other or phrase.vague or phrase.some or phrase.cycle
+        words = phrase.words.lower().split()
+        if (
+            self.asked
+            or not (opens and tells and plain)
+            or anew
+            or phrase.count is None
+            or not is_number((words or [""])[0])
+        ):
+            return []
+        if _MORE & {*words} or phrase.plural != (phrase.count > 1):
+            return []
+        groups = [group for group in self._world.groups[: self._world.settled] if not group.replaced]
+        groups = [group for group in groups if group.noun == phrase.noun and group.said == phrase.said]
+        if not groups or phrase.modifiers not in (NO_MODIFIERS, groups[-1].modifiers):
+            return []
+        if len(groups[-1].items) > phrase.count:
+            return list(groups[-1].items)
+        # "There are a red cup and a blue cup. One cup is upside down."
+        likes = [item for group in groups for item in group.items]
+        return likes if len(likes) > phrase.count and phrase.modifiers == NO_MODIFIERS else []
+
+    def _stands(self, at: int) -> tuple[Link | None, Phrase | None]:
+        """Where what chunk `at` tells of is said to be: the relation word of its clause, and its landmark."""
+        for n in range(at + 1, len(self._chunks) - 1):
+            piece = self._chunks[n]
+            if piece.kind in (*_OPENS, "have", "noun"):
+                break
+            if piece.kind == "rel" and not piece.relation.inverse:
+                return piece.relation, self._chunks[n + 1].phrase
+        return None, None
+
+    def _apart(self, item: Item, link: Link, landmark: Phrase) -> bool:
+        """Whether what `item` is carried by leaves no room for what is said to stand at `landmark` by `link`."""
+        world = self._world
+        below = world.ancestors(item)
+        if not below:
+            return False
+        inside = world.supports[item].kind == "in" if item in world.supports else False
+        beside = link.kind in LATERAL_KINDS
+        if landmark.kind == "pronoun":
+            return beside and inside
+        known = [one for one in world.items() if one.group.noun == landmark.noun and one.group is not item.group]
+        if not (known and landmark.definite):
+            if link.kind in SUPPORT_KINDS:
+                return landmark.definite or not world.is_table(below[0]) or world.likely.floor(landmark.noun)
+            return beside and inside
+        if {*known} & {*below}:
+            return beside
+        return not any({*world.ancestors(one)} & {*below} for one in known)
+
+
+def of_the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "two jars, one jar holds a fig, the other ..." as "two jars, one of the jars holds a fig, ...".
+
+    Both in one sentence: the next one may take them up without that.
+    """
+    made = list(tokens)
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 5, 2, -1):
+        single = numeral(words[at]) == 1 and words[at] not in ("a", "an") and words[at - 1] in _JOINTS
+        name = nouns.match([words[at + 1]]) if single else None
+        if name is None or name.plural:
+            continue
+        start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
+        stop = next((n for n in range(at, len(words)) if words[n] == "."), len(words))
+        others = [n for n in range(at + 3, stop) if words[n - 1 : n + 1] == ["the", "other"]]
+        if others and _counts(words[start : at - 1], plural(words[at + 1])):
+            of_those = [replace(tokens[at], text=text) for text in ("of", "the")]
+            made[at + 1 : at + 2] = [*of_those, replace(tokens[at + 1], text=plural(words[at + 1]))]
+    return made
+
+
+def _counts(words: Sequence[str], noun: str) -> bool:
+    """Whether `words` give a number of several that `noun` names."""
+    for at, word in enumerate(words):
+        end = next((n for n in range(at + 1, len(words)) if not is_modifier(words[n])), len(words))
+        if number_of(word) and words[end : end + 1] == [noun]:
+            return True
+    return False

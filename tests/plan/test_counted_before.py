@@ -1,0 +1,166 @@
+"""A number behind a larger one of the same kind: some of those, or further ones beside another place."""
+
+from __future__ import annotations
+
+import pytest
+
+from pat3d.plan.grammar.planner import GrammarPlanner
+from pat3d.plan.scene_plan import ScenePlan
+
+
+def read(prompt: str) -> ScenePlan:
+    return GrammarPlanner().plan(prompt)
+
+
+def count(plan: ScenePlan, noun: str) -> int:
+    return sum(obj.noun == noun for obj in plan.objects)
+
+
+def relations(plan: ScenePlan) -> set[tuple[str, str, str]]:
+    return {(rel.child, rel.kind, rel.parent) for rel in plan.relations}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "number", "expected"),
+    [
+        ("On the tray are two spoons and a bowl. One spoon is in the bowl. The other is beside it.", "spoon", 2,
+         {("spoon 1", "in", "bowl"), ("spoon 2", "on", "tray"), ("spoon 2", "next_to", "bowl")}),
+        ("There are three candles and a book on the desk. One candle is on the book.", "candle", 3,
+         {("candle 1", "on", "book"), ("candle 2", "on", "desk"), ("candle 3", "on", "desk")}),
+        ("Two pens and a mug are on the table. One pen is in the mug, the other next to it.", "pen", 2,
+         {("pen 1", "in", "mug"), ("pen 2", "next_to", "mug"), ("pen 2", "on", "table")}),
+        ("A table with two chairs. One chair is left of the table, the other right of it.", "chair", 2,
+         {("chair 1", "left_of", "table"), ("chair 2", "right_of", "table")}),
+        ("There are two mugs on the table. One mug contains a pen, the other mug is empty.", "mug", 2,
+         {("pen", "in", "mug 1"), ("mug 1", "on", "table"), ("mug 2", "on", "table")}),
+        ("There are two mugs on the table, one mug contains a pen, the other mug is empty.", "mug", 2,
+         {("pen", "in", "mug 1"), ("mug 1", "on", "table"), ("mug 2", "on", "table")}),
+        ("There are two cups and a plate. One cup is on the plate, one cup is behind it.", "cup", 2,
+         {("cup 1", "on", "plate"), ("cup 2", "behind", "plate")}),
+    ],
+)  # fmt: skip
+def test_one_of_what_was_counted_is_no_further_one(
+    prompt: str, noun: str, number: int, expected: set[tuple[str, str, str]]
+):
+    plan = read(prompt)
+    assert count(plan, noun) == number
+    assert expected <= relations(plan)
+
+
+def test_what_is_told_of_some_is_told_of_those():
+    plan = read("Two apples are in the bowl. One apple is red.")
+    assert [obj.colours for obj in plan.objects if obj.noun == "apple"] == [("red",), ()]
+    plan = read("Six pens are in a cup. Two pens are red.")
+    assert [obj.colours for obj in plan.objects if obj.noun == "pen"] == [("red",)] * 2 + [()] * 4
+    assert plan.notes == ()
+    plan = read("Four cups are on the counter. Two cups are upside down.")
+    assert count(plan, "cup") == 4
+    assert {posture.object for posture in plan.postures if posture.kind == "upside_down"} == {"cup 1", "cup 2"}
+    plan = read("Two cups are on the table: one cup is upside down, the other holds a pen.")
+    assert count(plan, "cup") == 2
+    assert ("pen", "in", "cup 2") in relations(plan)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "number"),
+    [
+        ("Two cups are on the table. One cup is on the shelf.", "cup", 3),
+        ("There are two apples in the bowl. One apple is next to the bowl.", "apple", 3),
+        ("Five balls are in the box. One ball lies next to it.", "ball", 6),
+    ],
+)
+def test_what_stands_elsewhere_is_a_further_one_and_a_note_says_so(prompt: str, noun: str, number: int):
+    plan = read(prompt)
+    assert count(plan, noun) == number
+    assert any("is read as a further one" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "number"),
+    [
+        ("Two cups are on the table, one cup is on the shelf.", "cup", 3),
+        ("Three cups are on the table. On the shelf there is one cup.", "cup", 4),
+        ("Two cups are on the tray. One cup and a spoon are on the table.", "cup", 3),
+    ],
+)
+def test_a_number_in_a_list_or_behind_a_place_counts_anew(prompt: str, noun: str, number: int):
+    assert count(read(prompt), noun) == number
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "number"),
+    [
+        ("Four knives and four spoons: four each, on a placemat.", "placemat", 1),
+        ("Two lemons, two limes and two kiwis, two each, in a bowl.", "fruit bowl", 1),
+        ("Three pens and three pencils, three each, lie on a notebook.", "notebook", 1),
+        ("Forks and spoons, five each, on a tray.", "tray", 1),
+        ("Forks and spoons, five each, on a tray.", "fork", 5),
+        ("As many cups as saucers, four each, on a tray.", "saucer", 4),
+        ("On the table are knives and forks, four each.", "knife", 4),
+    ],
+)
+def test_so_many_each_counts_two_kinds_and_not_what_carries_them(prompt: str, noun: str, number: int):
+    plan = read(prompt)
+    assert count(plan, noun) == number
+    assert not any("each" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "counts", "expected"),
+    [
+        ("beaker x3, flask x2, all on bench, flasks behind beakers", {"beaker": 3, "flask": 2},
+         {("flask 1", "behind", "beaker 1"), ("flask 1", "on", "bench")}),
+        ("cup x2, plate x3, cups left of plates", {"cup": 2, "plate": 3}, {("cup 1", "left_of", "plate 1")}),
+        ("vial x4, syringe x1, all on tray, syringe behind vials", {"vial": 4, "syringe": 1},
+         {("syringe", "behind", "vial 1"), ("syringe", "on", "tray")}),
+        ("2 cans, 1 bottle; bottle behind cans", {"can": 2, "bottle": 1}, {("bottle", "behind", "can 1")}),
+        ("3 cubes, 3 balls, balls on cubes", {"cube": 3, "ball": 3}, {("ball 1", "on", "cube 1")}),
+        ("Five books on the shelf, books on the floor.", {"book": 8}, {("book 1", "on", "shelf")}),
+    ],
+)  # fmt: skip
+def test_a_plural_of_what_the_list_has_counted_means_those(
+    prompt: str, counts: dict[str, int], expected: set[tuple[str, str, str]]
+):
+    plan = read(prompt)
+    assert {noun: count(plan, noun) for noun in counts} == counts
+    assert expected <= relations(plan)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    [
+        "The lamp stands on the bedside table left of the bed, and the clock on the one to the right of it.",
+        "There are two tables. A lamp is on the table left of the bed and a clock is on the one right of the bed.",
+        "The lamp stands on the table left of the bed. The clock is on the one to the right of it.",
+    ],
+)
+def test_the_one_that_carries_is_of_the_kind_of_what_carries(prompt: str):
+    plan = read(prompt)
+    tables = [obj.name for obj in plan.objects if obj.noun in ("table", "bedside table")]
+    assert len(tables) == 2
+    assert count(plan, "lamp") == 1
+    assert {("lamp", "on", tables[0]), (tables[0], "left_of", "bed")} <= relations(plan)
+    assert {rel.parent for rel in plan.relations if "clock" in rel.child and rel.supports} == {tables[1]}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun"),
+    [
+        ("Red box left, green box right, blue box on top of both.", "blue box"),
+        ("Two books next to each other and a mug on top of both.", "mug"),
+        ("A red cube and a blue cube stand side by side. A green cube lies on top of both.", "green cube"),
+    ],
+)
+def test_one_thing_lies_on_top_of_both(prompt: str, noun: str):
+    plan = read(prompt)
+    assert sum(obj.phrase.lower().endswith(noun) for obj in plan.objects) == 1
+    assert any(one.kind == "across" and len(one.of) == 2 for one in plan.arrangements)
+
+
+def test_of_likes_that_were_named_one_by_one():
+    plan = read("A red cup and a blue cup are on the tray. One cup holds a pen, the other a spoon.")
+    assert {("pen", "in", "red cup"), ("spoon", "in", "blue cup")} <= relations(plan)
+    assert count(plan, "cup") == 2
+    plan = read("A stack of four books is on the desk. One book is red.")
+    assert [obj.colours for obj in plan.objects if obj.noun == "book"] == [("red",), (), (), ()]
+    assert count(read("A cup is on the shelf. One cup is on the table."), "cup") == 2
