@@ -166,7 +166,7 @@ def test_what_a_plan_has_is_not_noted(planner: GrammarPlanner, prompt: str):
         ("A pyramid of six balls.", r'"pyramid" \(word 2\)'),
         ("Two pyramids of six cups.", r'"pyramids" \(word 2\)'),
         ("A bridge made of three blocks.", r'"bridge" \(word 2\)'),
-        ("Four blocks forming a square.", r'"square" \(word 5\)'),
+        ("Four blocks forming an arch.", r'"arch" \(word 5\)'),
         ("A ball in two baskets", '"A ball" cannot be in 2 things at once'),
         ("The mug is not on the plate.", r'"not" \(word 4\)'),
         ("Neither a mug nor a bowl.", r'"neither" \(word 1\)'),

@@ -9,11 +9,16 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar import lexicon
-from pat3d.plan.grammar.instructions import known_verb
+from pat3d.plan.grammar.instructions import FILLERS, known_verb
 from pat3d.plan.grammar.lexing import Token, singulars
+from pat3d.plan.grammar.modifiers import is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _TOLD = frozenset({"robot", "bot", "assistant", "agent", "machine"})
+_HAILING = frozenset({"hi", "hello", "hey", "dear", "ok", "okay", "alright"})
+_TIMES = frozenset({"morning", "afternoon", "evening", "day"})
+_ALL = frozenset({"there", "everyone", "everybody", "all", "team", "folks", "friend", "buddy"})
+"""Who is hailed besides by a name."""
 _ASKING = frozenset({"please", "kindly", "now", "then", "carefully", "gently", "can", "could", "would", "will", "i"})
 _LABELS = frozenset({"task", "instruction", "command", "request", "order", "goal", "objective", "step", "mission"})
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
@@ -30,13 +35,32 @@ def unaddressed(text: str, told: Sequence[Sequence[Token]], nouns: Nouns) -> tup
     aside: list[str] = []
     for sentence in told:
         before = {token.text for each in made for token in each}
-        plain = _unpictured(_without_label(_without_name(sentence)), before, nouns)
+        spoken = _without_person(text, sentence, nouns)
+        plain = _unpictured(_without_label(_without_name(spoken)), before, nouns) if len(spoken) > 1 else spoken
         kept = {token.start for token in plain}
         away = [token for token in sentence if token.start not in kept and not token.mark]
         aside += [text[away[0].start : away[-1].end]] if away else []
         if len(plain) > 1:
             made.append(plain)
     return (made, aside) if made else ([list(sentence) for sentence in told], [])
+
+
+def _without_person(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of `text` with "hi Tom, put the cup away" as "put the cup away", and so without "Tom," alone."""
+    words = [token.text for token in tokens]
+    good = 2 if words[0] == "good" and words[1] in _TIMES else 0
+    at = next(n for n in range(good, len(words)) if words[n] not in (*_HAILING, ","))
+    after = at + 1
+    if not tokens[min(after, len(tokens) - 1)].mark or tokens[at].mark:
+        return list(tokens)
+    name = text[tokens[at].start : tokens[at].end]
+    known = nouns.match([words[at]]) is not None or is_modifier(words[at]) or known_verb(words[at])
+    person = name[:1].isupper() and name[1:].islower() and not known and not words[at].endswith("ly")
+    hailed = at > 0 and (person or words[at] in _ALL)
+    asked = person and words[at] not in FILLERS | _TOLD | _LABELS and words[after] != "."
+    asked = asked and _commands(words[after + 1 :])
+    rest = tokens[after + (words[after] != ".") :]
+    return list(rest) if hailed or asked else list(tokens)
 
 
 def _without_name(tokens: Sequence[Token]) -> list[Token]:

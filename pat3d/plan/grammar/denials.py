@@ -21,6 +21,12 @@ Told = tuple[list[Token], list[tuple[Token, Token]]]
 
 _NOTHING = frozenset({"nothing", "nobody"})
 _NO = frozenset({"neither", "none"})
+_UNABLE = tuple(tuple(said.split()) for said in (
+    "does not", "do not", "will not", "can not", "is not", "are not", "no longer", "doesn't", "don't", "won't", "can't",
+    "cannot", "isn't", "aren't", "never",
+))  # fmt: skip
+_WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "tick", "ticks", "ring", "rings"})
+"""What a thing does wherever it stands: what follows is where it does not."""
 _ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
 _OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
@@ -32,7 +38,7 @@ def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
     for told in (_none_there, _the_other, _nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind,
-                 _nothing, _none_of, _missing, _among):  # fmt: skip
+                 _nothing, _none_of, _missing, _among, _useless, _all_listed):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
@@ -277,3 +283,36 @@ def _among(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
             start, end = at - (words[at - 1] == ","), at + 3 + (words[at + 3] == ",")
             return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[at + 2])]
     return None
+
+
+def _useless(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a lamp that doesn't work stands", "a drawer that won't close", without that.
+
+    What it is not on, and does not hold, is more than a remark.
+    """
+    for at in range(1, len(words) - 3):
+        size = next((len(said) for said in _UNABLE if tuple(words[at + 1 : at + 1 + len(said)]) == said), 0)
+        if words[at] not in ("that", "which") or not size or at + size > len(words) - 3:
+            continue
+        verb = at + 1 + size
+        end = next(n for n in range(verb, len(words)) if n > verb and (
+            tokens[n].mark or words[n] in FINITE | lexicon.STANDING | {"and", "with"} or link_at(tokens, n)
+        ))  # fmt: skip
+        inside = words[verb:end]
+        placed = link_at(tokens, end) > 0 and words[verb] not in _WORKING
+        named = any(nouns.match([word]) for word in inside[1:]) or {*inside} & lexicon.DETERMINERS
+        if tokens[verb].mark or link_at(tokens, verb) or placed or named or len(inside) > 2:
+            continue
+        start, after = at - (words[at - 1] == ","), end + (words[at - 1] == "," == words[end])
+        return [*tokens[:start], *tokens[after:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _all_listed(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "everything but the fork: a plate, a knife" as "a plate, a knife"."""
+    at = words.index("everything") if "everything" in words else -1
+    colon = words.index(":") if at >= 0 and ":" in words[at:] else 0
+    excepted = any(tuple(words[n : n + len(said)]) == said for n in range(at + 1, colon) for said in _BUT)
+    if not excepted or any(tokens[n].mark for n in (*range(at, colon), colon + 1)):
+        return None
+    return [*tokens[:at], *tokens[colon + 1 :]], [(tokens[at], tokens[colon - 1])]

@@ -123,7 +123,8 @@ def _pair_sides(world: World) -> None:
             level = world.is_a(owner[0], lexicon.LEVEL, lexicon.SEATS) and world.support(item) is owner[0]
             if not level and each.side != "centre":
                 told.add(id(each))
-                world.beside(each.items, _KINDS[_ORDER[each.side]], owner)
+                kind = _KINDS[_ORDER[each.side]]
+                world.beside(each.items, kind, _from_its_end(world, owner, kind))
     for index, each in enumerate(world.sided):
         for other in world.sided[index + 1 :]:
             one, two = each.items[0], other.items[0]
@@ -149,12 +150,23 @@ def _pair_sides(world: World) -> None:
             _side_alone(world, each)
 
 
+def _from_its_end(world: World, items: list[Item], kind: LateralKind) -> list[Item]:
+    """`items` from the end at which another stands that is beside them: at the right end of a row from its last on."""
+    rows = [each.items for each in world.arranged if each.kind == "row" and {*items} & {*each.items}]
+    if rows and kind in ("left_of", "right_of"):
+        # "A cup, a jar and a can in a row with a ball at the right end"
+        items = rows[0]
+    return items[::-1] if kind == "right_of" and (rows or any(item.group.rows for item in items)) else items
+
+
 def _side_alone(world: World, told: Sided) -> None:
     """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
     kind = _KINDS[_ORDER[told.side]]
     implied = [item for item in told.implied or _others_there(world, told) if item not in told.items]
     if implied:
-        firsts = {item.group: item for item in reversed(implied)}
+        ends = _from_its_end(world, implied, kind)
+        rowed = ends is not implied
+        firsts = {item.group: item for item in reversed(ends[:1] if rowed else ends)}
         for first in reversed(firsts.values()):
             world.beside(told.items, kind, [first])
     elif not any(_tells_side(edge, told) for edge in world.laterals):

@@ -62,7 +62,7 @@ _WORKING = frozenset({"wipe", "wash", "scrub", "rinse", "stir", "shake", "dump",
 """Verbs that open a prompt before a bare noun, and describe none: "wipe plate with towel"."""
 _WITH_ANOTHER = frozenset({"wipe", "scrub", "rinse", "stir", "squeeze", "unfold", "pour", "unscrew", "unplug", "shake"})
 """Those that are never nouns, so that they follow another instruction: "pick up sponge and wipe shoe"."""
-_FILLERS = frozenset({
+FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
 })  # fmt: skip
@@ -256,7 +256,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         elif words[0].endswith("ly") and words[1] in VERBS and words[0] not in lexicon.BACKGROUND:
             # "Firmly press the button"
             at += 1
-        elif words[0] in _FILLERS and (opening or words[0] != ","):
+        elif words[0] in FILLERS and (opening or words[0] != ","):
             at += 1
         elif opening and (after := _after_actor(tokens, at)):
             at, actor = after, True

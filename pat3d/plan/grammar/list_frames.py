@@ -11,6 +11,7 @@ from pat3d.plan.grammar.lexicon import STANDING
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import EACH_OTHER
 from pat3d.plan.grammar.modifiers import is_modifier
+from pat3d.plan.grammar.number_words import number_of
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _HAVING = frozenset({"has", "have", "holds", "hold", "carries", "carry", "contains", "contain", "bears", "bear"})
@@ -28,12 +29,14 @@ _PLACES = {
     **{(near, "the", "edge"): "at the edge of" for near in ("at", "on", "near")},
 }
 """Places behind a comma, as they are said of a surface."""
+_EACH_OF = {(4, "sides"): "around", (2, "ends"): "at the ends of", (4, "corners"): "in the corners of"}
+"""All of the sides that a thing has, and where is what stands at each."""
 
 
 def listed_plainly(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence without the frames around a list."""
     tokens = _on_each_shelf(_of_what_kind(_not_only(_on_itself(tokens, nouns)), nouns), nouns)
-    return _form_ahead(_rows_of(_at_places_of(tokens), nouns))
+    return _form_ahead(_rows_of(_at_places_of(_at_each_of(tokens)), nouns))
 
 
 def _of_what_kind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -161,6 +164,37 @@ def _at_places_of(tokens: Sequence[Token]) -> list[Token]:
         return list(tokens)
     place = [replace(tokens[start], text=word, end=tokens[owner - 1].end) for word in said.split()]
     return [*tokens[:start], *place, *tokens[owner:comma], tokens[-1]]
+
+
+def _at_each_of(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a stool at each of its four sides" as "4 stools around it"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 4):
+        number = number_of(words[at + 4])
+        part = words[at + 5] if number and at + 5 < len(words) else ""
+        of = words[at + 6] == "of" if part and at + 6 < len(words) else False
+        said = _EACH_OF.get((number, part))
+        owned = words[at + 3] == "its" or (words[at + 3] == "the" and of)
+        if (
+            said is None
+            or not owned
+            or words[at] not in ("at", "on", "in", "by")
+            or words[at + 1 : at + 3] != ["each", "of"]
+        ):
+            continue
+        first = next(
+            (n for n in range(at - 2, max(at - 6, -1), -1) if number_of(words[n]) or words[n] in ("a", "an")), -1
+        )
+        if first < 0 or any(token.mark or token.text in ("and", "of") for token in tokens[first:at]):
+            continue
+        each = number_of(words[first]) or 1
+        several = replace(tokens[first], text=str(each * number))
+        thing = tokens[at - 1] if words[at - 1].endswith("s") else replace(tokens[at - 1], text=f"{words[at - 1]}s")
+        where = [replace(tokens[at], text=word, end=tokens[at + 5].end) for word in said.split()]
+        it = [] if of else [replace(tokens[at + 3], text="it")]
+        after = at + 6 + of
+        return [*tokens[:first], several, *tokens[first + 1 : at - 1], thing, *where, *it, *tokens[after:]]
+    return list(tokens)
 
 
 def _form_ahead(tokens: Sequence[Token]) -> list[Token]:

@@ -11,7 +11,9 @@ from pat3d.plan.grammar.denials import Told
 from pat3d.plan.grammar.in_turn import in_turn
 from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
+from pat3d.plan.grammar.number_words import number_of
 from pat3d.plan.grammar.numbered import LABELLED, labels_end
+from pat3d.plan.grammar.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.unmade import base_verb
 from pat3d.plan.grammar.vocabulary import Nouns
 
@@ -30,6 +32,13 @@ _SAID_SO = tuple(tuple(said.split()) for said in (
 ))  # fmt: skip
 """What is said of light and of how something is done, wherever it stands."""
 _DIRECTIONS = frozenset({"decreasing", "increasing", "ascending", "descending"})
+_OUTLINES = UNPLANNED - PLACES - RINGS - {"pyramid", "grid", "matrix", "staircase", "stairway", "cantilever"}
+"""Shapes that things standing beside each other have; what is built so has to be told otherwise."""
+_FORMING = frozenset({"form", "forms", "forming", "make", "makes", "making"})
+_SQUARES = ("square", "rectangle")
+"""What four alike have in two rows of two."""
+_INSIDE = frozenset({"around", "middle", "center", "centre", "each"})
+_UNSEEN = frozenset({"can't", "cannot", "won't", "isn't", "aren't", "not", "doesn't", "don't", "never", "couldn't"})
 
 
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
@@ -41,6 +50,8 @@ def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
         _if,
         _knocking,
         _than,
+        _outlined,
+        _grouped,
         _state,
         _labels,
         in_turn,
@@ -139,6 +150,56 @@ def _state(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     return None
 
 
+def _grouped(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "place six blocks in two groups of three" as "place six blocks"."""
+    for at in range(2, len(words) - 2):
+        count = at + 1 + (words[at + 1] in lexicon.NUMBERS or words[at + 1].isdecimal())
+        if words[at] not in ("in", "into") or count == at + 1 or words[count] not in ("groups", "clusters"):
+            continue
+        size = number_of(words[count + 2]) if words[count + 1] == "of" else 0
+        end = count + 1 + 2 * bool(size)
+        end += words[end] == "each"
+        after = tokens[min(end, len(tokens) - 1)]
+        if after.mark or after.text in JOINERS | FINITE or link_at(tokens, end):
+            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
+def _outlined(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "three cans in a triangle on a tray", "three cans form a triangle", as "three cans on a tray".
+
+    "Four cans in a square" stand in two rows of two.
+    """
+    for at in range(1, len(words) - 2):
+        forming = words[at] in _FORMING
+        forming = forming and (words[at][-1] == "g" or words[at - 1] not in ("to", ",", "and", "please"))
+        if not (forming or words[at] in ("in", "into")) or words[at + 1] not in ("a", "an"):
+            continue
+        head = next((n for n in (at + 2, at + 3) if n < len(words) and words[n] in _OUTLINES), 0)
+        after = tokens[min(head + 1, len(tokens) - 1)]
+        ends = after.mark or after.text in JOINERS | FINITE | lexicon.STANDING or link_at(tokens, head + 1) > 0
+        several = any(lexicon.NUMBERS.get(word, 0) > 2 or singulars(word) for word in words)
+        if not head or not ends or after.text == "of" or not (several or {"and", "them", "they"} & {*words}):
+            continue
+        four = next((n for n in range(at - 1) if words[n] in ("four", "4")), -1)
+        alone = not any(token.mark or token.text == "and" for token in tokens[four + 1 : at])
+        numbers = sum(word in lexicon.NUMBERS and word not in ("a", "an", "one") for word in words[:at])
+        plain = alone and numbers < 2 and not _INSIDE & {*words[head:]}
+        if words[head] in _SQUARES and four >= 0 and plain:
+            verb = ("are",) if forming and words[at][-1] != "g" else ()
+            said = [replace(tokens[at], text=word) for word in (*verb, "in", "a", "2x2", "grid")]
+            return [*tokens[:at], *said, *tokens[head + 1 :]], []
+        start = at - (words[at - 1] in lexicon.RELATIVES)
+        start -= words[start - 1] in ("arranged", "placed", "set") and not link_at(tokens, head + 1)
+        start -= words[start - 1] in lexicon.COPULAS and after.mark
+        start -= words[start - 1] == "," == after.text
+        begun = next((n + 1 for n in range(at - 1, -1, -1) if tokens[n].mark), 0)
+        # "Three cans in a triangle": what stands so is named as well.
+        said = tokens[begun if begun < start else at]
+        return [*tokens[:start], *tokens[head + 1 :]], [(said, tokens[head])]
+    return None
+
+
 def _goes_on(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     """Whether something else is told of from token `at` on: "with a cushion", "and a table", not "and the Greeks"."""
     if tokens[at].text == "and":
@@ -191,13 +252,15 @@ def _in_that_order(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> T
 def _such_that(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "put three cans in a box such that the red one is on the left" without the second clause.
 
-    It may name nothing new: of "such that a fork lies beside it" the fork is there.
+    So is "so that the camera cannot see it". It may name nothing new: of "such that a fork lies beside it" the fork is
+    there.
     """
-    soes = (["such", "that"], ["so", "that"]) if words[0] == "stack" else (["such", "that"],)
+    purpose = words[0] == "stack" or bool(_UNSEEN & {*words})
+    soes = (["such", "that"], ["so", "that"]) if purpose else (["such", "that"],)
     at = next((n for n in range(3, len(words) - 3) if words[n : n + 2] in soes), 0)
     if not at:
         return None
-    named = set(words[:at])
+    named = {*words[:at], *lexicon.VIEWERS}
     for n in range(at + 2, len(words) - 1):
         again = named & {words[n], words[n] + "s", *singulars(words[n])}
         if words[n] in ("a", "an", "another") or (nouns.match([words[n]]) is not None and not again):

@@ -24,7 +24,8 @@ _IRREGULAR = frozenset({"cut", "broken", "taken", "worn", "torn", "bent", "drawn
     "empty", "full", "closed",
     "ready", "visible", "similar", "identical", "parallel", "perpendicular", "flush", "askew"})  # fmt: skip
 """Words behind a noun that tell how it is, beside those that end in -ed and -ing."""
-_SORTED = frozenset({"different", "various", "varying", "equal", "similar", "identical", "unequal", "differing"})
+_SORTED = frozenset({"different", "various", "varying", "equal", "similar", "identical", "unequal", "differing",
+    "increasing", "decreasing", "ascending", "descending", "growing", "diminishing"})  # fmt: skip
 _SORTS = frozenset({"sizes", "heights", "lengths", "shapes", "kinds", "types", "designs", "styles", "ages", "brands",
     "widths", "size", "height", "length", "shape", "colors", "colours", "shades", "materials"})  # fmt: skip
 _MANNERS = frozenset({"order", "sequence", "manner", "way", "fashion", "position", "orientation", "angle", "angles",

@@ -11,9 +11,9 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.boundaries import link_at
 from pat3d.plan.grammar.instructions import known_verb
-from pat3d.plan.grammar.lexing import Token
+from pat3d.plan.grammar.lexing import Token, singulars
 from pat3d.plan.grammar.links import FINITE
-from pat3d.plan.grammar.modifiers import is_colour_word
+from pat3d.plan.grammar.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _HAVING = (("consists", "of"), ("consisting", "of"), ("made", "up", "of"), ("has",), ("contains",), ("holds",),
@@ -35,7 +35,8 @@ _ONE_EACH = (
 
 def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what stands in a row before the row."""
-    tokens = _of_two_colours(_end_to_end(_told_stack(_from_one_end(tokens, nouns))))
+    told = _end_to_end(_told_stack(_from_one_end(tokens, nouns)))
+    tokens = _at_its_end(_of_a_kind(_of_two_colours(told), nouns))
     words = [token.text for token in tokens]
     colon = words.index(":") if ":" in words else 0
     if words[0] == "row" and colon and words[1].isdecimal():
@@ -59,6 +60,39 @@ def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = [replace(here[0], text=word) for word in ("a", "row", "of")]
     row = [replace(behind[0], text=word) for word in ("is", *relation.split(), "a", "row", "of")]
     return [*made, *here, *row, *behind, tokens[-1]]
+
+
+def _at_its_end(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "three cans in a row, a jar at the end of the row" as "..., a jar at the right end"."""
+    words = [token.text for token in tokens]
+    for at in range(4, len(words) - 5):
+        end = at + 2 + (words[at + 2] in ("left", "right", "far"))
+        row = words[end + 3] if words[end : end + 3] == ["end", "of", "the"] else ""
+        if words[at] in ("at", "on") and words[at + 1] == "the" and row in ("row", "line") and row in words[:at]:
+            side = replace(tokens[at + 1], text=words[at + 2] if words[at + 2] == "left" else "right")
+            return [*tokens[: at + 2], side, tokens[end], *tokens[end + 4 :]]
+    return list(tokens)
+
+
+def _of_a_kind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a row of toys on a shelf: a car and a ball" as "a car and a ball are in a row on a shelf"."""
+    words = [token.text for token in tokens]
+    at = next((n for n in range(len(words) - 6) if words[n : n + 3] == ["a", "row", "of"]), -1)
+    colon = words.index(":", at + 3) if at >= 0 and ":" in words[at + 4 :] else 0
+    if not colon:
+        return list(tokens)
+    stop = next(n for n in range(colon, len(words)) if words[n] == ".")
+    kind = words[at + 3]
+    general = {kind, *singulars(kind)} & lexicon.GENERICS.keys() or nouns.match([kind]) is None
+    place = tokens[at + 4 : colon]
+    led = not at or words[at - 1] in FINITE
+    if not general or not led or is_modifier(kind) or (place and not link_at(tokens, at + 4)):
+        return list(tokens)
+    if any(token.mark for token in place) or sum(word in ("a", "an", "one", "and") for word in words[colon:stop]) < 2:
+        return list(tokens)
+    are = [] if at else [replace(tokens[at], text="are")]
+    row = [replace(tokens[at + n % 2], text=word) for n, word in enumerate(("in", "a", "row"))]
+    return [*tokens[:at], *tokens[colon + 1 : stop], *are, *row, *place, *tokens[stop:]]
 
 
 def _end_to_end(tokens: Sequence[Token]) -> Sequence[Token]:

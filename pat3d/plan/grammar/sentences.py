@@ -27,6 +27,10 @@ CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 
 _MORE = frozenset({"another", "other", "others", "also", "too", "more", "else", "still", "then"})
 """Words by which what there is is said of further things."""
+_MOVED = frozenset({"rolled", "fallen", "slid", "slipped", "dropped", "tumbled", "landed", "bounced", "jumped",
+    "climbed", "crept", "crawled", "hopped", "leapt", "flown"})  # fmt: skip
+_TO = {"into": "in", "onto": "on", "under": "under", "beneath": "under", "underneath": "under", "below": "under"}
+"""Where something is that has moved there."""
 _LADEN = frozenset({
     "cluttered", "messy", "untidy", "tidy", "neat", "full", "crowded", "packed", "busy", "set", "laid", "laden",
     "organized", "organised",
@@ -42,7 +46,8 @@ def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
     tokens = _contents(so_that(told_plainly(for_guests(tokens))), nouns)
     told = _conditions(brought_about(_labelled(_cut(tokens, nouns))))
-    told = _reordered(exceptions(plainly_asked(told, nouns)), nouns)
+    told = _come_to_rest([_wherever(each) for each in plainly_asked(told, nouns)])
+    told = _reordered(exceptions(told), nouns)
     return [sentence for sentence in told if len(sentence) > 1]
 
 
@@ -160,6 +165,59 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
             made += [[*sentence[:comma], replace(sentence[comma], text=".")], list(sentence[after:])]
         else:
             made.append(sentence)
+    return made
+
+
+def _wherever(sentence: list[Token]) -> list[Token]:
+    """Read "wherever there is a plate there is also a fork on it" as "every plate has a fork on it"."""
+    words = [token.text for token in sentence]
+    at = next((n for n in range(5, len(words) - 3) if words[n : n + 2] == ["there", "is"]), 0)
+    if words[:4] != ["wherever", "there", "is", "a"] or not at or ":" in words:
+        return sentence
+    named = sentence[4 : at - (words[at - 1] == ",")]
+    has = replace(sentence[at], text="has")
+    return [replace(sentence[0], text="every"), *named, has, *sentence[at + 2 + (words[at + 2] == "also") :]]
+
+
+def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "a pea has rolled under the table" as "a pea is under the table".
+
+    "A pea has fallen off the fork onto the mat" is "there is the fork" and "a pea is on the mat".
+    """
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        at = next((n for n in range(1, len(words) - 4) if words[n] in ("has", "have") and words[n + 1] in _MOVED), 0)
+        size = link_at(sentence, at + 2)
+        link = LINKS.get(tuple(words[at + 2 : at + 2 + size]))
+        place = at + 2
+        away = link is not None and link.manner == "source"
+        away = away and words[at - 1] not in lexicon.RELATIVES
+        placed = link is not None and (link.kind or words[place] in _TO) and link.manner != "source"
+        if not at or words[place] == "over" or not (away or placed):
+            made.append(sentence)
+            continue
+        is_ = replace(sentence[at], text="is" if words[at] == "has" else "are")
+        if away:
+            stop = next(n for n in range(place, len(words)) if sentence[n].mark)
+            goals = (n for n in range(place + size, stop - 1) if link_at(sentence, n) and words[n] != "of")
+            place = next(goals, 0)
+            if set(words[at + 2 : place or stop]) & (FINITE | lexicon.STANDING):
+                # "A pea has fallen off the fork and now lies beside it"
+                made.append(sentence)
+                continue
+            if not place:
+                # "A pea has fallen off the fork": where to is not said.
+                off = replace(sentence[at + 1 + size], text="off")
+                made.append([*sentence[:at], is_, off, *sentence[at + 2 + size :]])
+                continue
+            source = [token for token in sentence[at + 2 + size : place] if token.text != "and"]
+            if source and source[0].text not in lexicon.PRONOUNS:
+                there = [replace(sentence[at], text=word) for word in ("there", "is")]
+                made.append([*there, *source, replace(sentence[-1])])
+        floored = words[place] == "to" and words[place + 2] in ("floor", "ground")
+        where = replace(sentence[place], text="on" if floored else _TO.get(words[place], words[place]))
+        made.append([*sentence[:at], is_, where, *sentence[place + 1 :]])
     return made
 
 

@@ -19,6 +19,7 @@ _PEOPLE = frozenset({"friend", "friends", "guest", "guests", "mother", "father",
     "son", "daughter"})  # fmt: skip
 _ABOUT_NOW = frozenset({"it's", "today", "tonight", "tomorrow", "today's", "tonight's"})
 """First words of what tells of the day."""
+_IMAGINING = frozenset({"picture", "imagine", "envision", "visualize", "visualise"})
 _BEING = frozenset({"am", "are", "is", "'s", "'re", "i'm", "we're", "feel", "feeling", "was", "were"})
 _WITHOUT_ARTICLE = frozenset({"having", "drinking", "eating", "serving", "making"})
 _TIMES = frozenset({"today", "tomorrow", "tonight", "monday", "tuesday", "wednesday", "thursday", "friday", "saturday",
@@ -34,6 +35,7 @@ def without_talk(told: Sequence[list[Token]], nouns: Nouns) -> tuple[list[list[T
     So is the heading of "Tea for two: a pot and two cups", behind which a list says what is there.
     """
     talk: list[tuple[Token, Token]] = []
+    told = [each for sentence in told for each in _imagined(sentence, nouns)]
     for sentence, follower in zip(told, told[1:], strict=False):
         if not (_is_talk(sentence, nouns) and _names_something(follower, nouns)):
             break
@@ -62,6 +64,15 @@ def _heading(sentence: Sequence[Token]) -> int:
     return colon if served and plain and not shared and colon < len(words) - 2 else 0
 
 
+def _imagined(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
+    """Cut "picture a quiet breakfast: a cup on a tray" at its colon."""
+    colon = next((at for at, token in enumerate(sentence) if token.text == ":"), 0)
+    opening = [*sentence[:colon], sentence[-1]]
+    if sentence[0].text not in _IMAGINING or not colon or not _is_talk(opening, nouns):
+        return [sentence]
+    return [opening, list(sentence[colon + 1 :])]
+
+
 def spoken_before(sentence: list[Token]) -> list[list[Token]]:
     """Tell "my hands are dirty, get the soap" as "my hands are dirty", "get the soap": talk, and what is asked."""
     words = [token.text for token in sentence]
@@ -83,7 +94,7 @@ def spoken_before(sentence: list[Token]) -> list[list[Token]]:
 def _is_talk(sentence: Sequence[Token], nouns: Nouns) -> bool:
     """Whether `sentence` tells of who speaks, or of someone of theirs, and names nothing that could be there."""
     words = [token.text for token in sentence]
-    spoken = words[0] in _SPEAKERS or (words[0] in ("my", "our", "the") and words[1] in _PEOPLE)
+    spoken = words[0] in _SPEAKERS | _IMAGINING or (words[0] in ("my", "our", "the") and words[1] in _PEOPLE)
     spoken = spoken or words[0] in _ABOUT_NOW | _PEOPLE | lexicon.MEALS or words[:2] == ["it", "is"]
     return len(words) > 2 and spoken and all(_is_said(sentence, at, nouns) for at in range(1, len(words) - 1))
 
@@ -102,7 +113,7 @@ def _is_said(sentence: Sequence[Token], at: int, nouns: Nouns) -> bool:
         return word not in lexicon.DETERMINERS | lexicon.NUMBERS.keys() or not ends
     if before in _BEING and ends:
         return nouns.match([word]) is None
-    if ends or after.text in _TIMES:
+    if ends or (after.text in _TIMES and sentence[0].text not in _IMAGINING):
         thing = nouns.match([word]) is not None and not is_quality(word)
         return before in _WITHOUT_ARTICLE if thing else makes_nothing(word)
     # What goes before another noun describes it.

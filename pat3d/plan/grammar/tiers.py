@@ -11,6 +11,7 @@ from dataclasses import replace
 from pat3d.plan.grammar import lexicon
 from pat3d.plan.grammar.lexing import Token
 from pat3d.plan.grammar.links import FINITE, LINKS
+from pat3d.plan.grammar.number_words import number_of
 from pat3d.plan.grammar.vocabulary import Nouns
 
 _STOREYED = ("shelf", "shelving unit", "bookshelf", "bookcase", "cart", "trolley", "cabinet", "wardrobe", "dresser",
@@ -26,6 +27,7 @@ _COUNTING = frozenset({"a", "an"} | lexicon.NUMBERS.keys())
 
 def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the upper tier" as "the upper shelf of the cart", the furniture that was named before it."""
+    tokens = _on_each(tokens, nouns)
     words = [token.text for token in tokens]
     made: list[Token] = []
     owner: tuple[str, ...] = ()
@@ -64,6 +66,39 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         verb = (verb or (told and _finite(words[at]))) and words[at] != "."
         made += tokens[at : at + max(found, 1)]
         at += max(found, 1)
+    return made
+
+
+def _on_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "two cups on each level" of a shelf of three as "6 cups on the shelf"; "each level" is a shelf."""
+    words = [token.text for token in tokens]
+    made = list(tokens)
+    at = next((n for n in range(1, len(words) - 1) if words[n] in ("each", "every") and words[n - 1] == "on"
+               and (words[n + 1] in _LEVELS or tokens[n + 1].mark)), 0)  # fmt: skip
+    number = next((n for n in range(len(words) - 1) if number_of(words[n]) and words[n + 1] in _LEVELS.values()), -1)
+    names = (words[n : n + size] for n in range(len(words)) for size in (3, 2, 1) if n + size < len(words))
+    owner = next((name for name in names if (match := nouns.match(name)) is not None and match.noun in _STOREYED
+                  and not match.plural), None)  # fmt: skip
+    if not at or owner is None:
+        return made
+    level = words[at + 1] in _LEVELS
+    if not level and not 0 <= number < at:
+        return made
+    end = at + 1 + level
+    end += 2 if words[end : end + 2] == ["of", "it"] else 0
+    of = end + 2 + len(owner) if words[end] == "of" and words[end + 2 : end + 2 + len(owner)] == owner else 0
+    around = (*range(at - 3, max(at - 7, -1), -1), *range(end, min(end + 3, len(words) - 2)))
+    counts = (n for n in around if n != number and (number_of(words[n]) or words[n] in ("a", "an", "one")))
+    first = next((n for n in counts if not any(tokens[k].mark for k in range(min(n, at), max(n, at)))), -1)
+    behind = (n for n in range(first + 1, min(first + 4, len(words))) if nouns.match([words[n]]))
+    last = at - 2 if first < at else next(behind, 0)
+    if number < 0 or first < 0 or nouns.match([words[last]]) is None:
+        if level:
+            made[at + 1] = replace(tokens[at + 1], text="shelf")
+        return made
+    made[first] = replace(tokens[first], text=str((number_of(words[first]) or 1) * number_of(words[number])))
+    made[last] = tokens[last] if words[last].endswith("s") else replace(tokens[last], text=f"{words[last]}s")
+    made[at : (of or end)] = [replace(tokens[at], text=word) for word in ("the", *owner)]
     return made
 
 

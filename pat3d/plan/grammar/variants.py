@@ -68,7 +68,6 @@ _PLAINER: dict[tuple[str, ...], tuple[str, ...]] = {
         for number in ("a", "an", "some", "one", "two", "three", "four", "five", "six")
     },
     **{("take", it, "out", "again"): ("take", it, "out") for it in ("it", "them")},
-    ("wherever", "there", "is", "a"): ("every",),
     **{
         (serves, "as", "a", stand, "for"): ("carries",) for serves in ("serves", "acts", "doubles") for stand in _STANDS
     },
