@@ -107,6 +107,7 @@ def test_stack_is_a_chain_as_high_as_said(count, noun, support):
 
 
 @settings(deadline=None, max_examples=60)
+@example("Please")
 @example("0&\u1369")
 @example("0:")
 @given(st.text(max_size=200))

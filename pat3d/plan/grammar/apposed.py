@@ -43,6 +43,8 @@ def _each_named(tokens: list[Token]) -> list[Token]:
     """Read "raise both bottles, the pink bottle and the yellow one" as "raise the pink bottle and the yellow one"."""
     words = [token.text for token in tokens]
     comma = words.index(",") if "," in words else 0
+    if not comma:
+        return tokens
     first = int(words[0] == "please") + 1
     both = first + 1 if words[first] == "both" else first + 2 if words[first : first + 2] == ["the", "two"] else 0
     both += both > 0 and words[both] == "different"
