@@ -104,3 +104,20 @@ def test_the_first_two_are_told_one_by_one():
     prompt = "Five bowls are on a table. The first three contain an egg and the others are empty."
     inside = {rel.parent for rel in GrammarPlanner().plan(prompt).relations if rel.kind == "in"}
     assert inside == {"bowl 1", "bowl 2", "bowl 3"}
+
+
+def test_all_but_two_of_three_is_one():
+    for prompt in (
+        "All but two of the three cups on a shelf are red.",
+        "Of the three cups on a shelf, all but two are red.",
+    ):
+        plan = GrammarPlanner().plan(prompt)
+        assert sorted(obj.colours for obj in plan.objects if obj.noun == "cup") == [(), (), ("red",)]
+
+
+def test_what_is_cleared_has_on_it_what_is_moved():
+    plan = GrammarPlanner().plan("Clear the desk by moving the two books to the shelf.")
+    assert {(rel.child, rel.parent) for rel in plan.relations} == {("book 1", "desk"), ("book 2", "desk")}
+    plan = GrammarPlanner().plan("Empty the box by placing the ball in the bin.")
+    assert str(plan.task) == "place:ball:bin"
+    assert ("ball", "in", "box") in {(rel.child, rel.kind, rel.parent) for rel in plan.relations}

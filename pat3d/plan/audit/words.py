@@ -249,7 +249,7 @@ dangle dangles dangling
 sits sit sat sitting stands stand stood standing lies lie lay laid lying laying rests rest rested resting leans lean
 leaned leaning hangs hang hung hanging placed put set located positioned situated arranged displayed perched nestled
 served scattered spread kept stored wedged tucked
-stuck propped planted parked floats organized strewn touching pointing points gazing overflowing sleeps held balanced
+stuck propped planted parked floats organized strewn touching pointing points gazing overflowing held balanced
 flank flanks share shares fill fills sandwiched perches split evenly equally divided distributed
 stacked piled lined seated found contains holding holds filled full topped surrounded flanked between
 """

@@ -95,6 +95,10 @@ def _fractions(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+_OF_ONE = {"are": "is", "have": "has", "hold": "holds", "contain": "contains", "lie": "lies", "stand": "stands"}
+"""Verbs of several, and of one."""
+
+
 def _all_but(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "six cups, all but one of them red" as "six cups, five of them red".
 
@@ -123,6 +127,9 @@ def _all_but(tokens: Sequence[Token]) -> list[Token]:
             continue
         number = replace(token, text="one" if total - left == 1 else str(total - left))
         of_them = [replace(token, text=text) for text in ("of", "them")]
+        verb = next((n for n in range(end, len(made)) if made[n].text in _OF_ONE), 0)
+        if verb and total - left == 1:
+            made[verb] = replace(made[verb], text=_OF_ONE[made[verb].text])
         made[at:end] = [number, *([] if of[:1] == ["of"] else of_them), *predicate]
         return made
     return made
