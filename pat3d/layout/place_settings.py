@@ -24,6 +24,8 @@ _PLATE = "plate"
 _CUTLERY = {"fork": -math.pi / 2, "knife": math.pi / 2, "spoon": -math.pi / 2}
 """How each is turned, as made, for its head to point away from who sits in front [rad]."""
 _DRINKS = ("wine glass", "glass", "cup", "mug")
+_ABREAST = 3
+"""Settings that one side of a table has room for."""
 _GAP = 0.015
 """Between neighbours [m]."""
 _LEAST = 0.005
@@ -66,6 +68,9 @@ def place_settings(
         return []
     found = []
     seats = []
+    # Left and right are as the viewer has them: who sits opposite has the fork on the other side.
+    told = [lat for lat in laterals if lat.kind in ("left_of", "right_of") and {lat.child, lat.parent} & {*plates}]
+    sided = len(plates) <= _ABREAST and any({lat.child, lat.parent} <= {*free} for lat in told)
     for seat, plate in enumerate(plates):
         members: dict[str, str] = {}
         for noun in (*_CUTLERY, *_DRINKS, "napkin"):
@@ -75,7 +80,7 @@ def place_settings(
         drink = next((members[noun] for noun in _DRINKS if noun in members), None)
         laid = {noun: name for noun, name in members.items() if noun not in _DRINKS or name == drink}
         seats.append((plate, laid))
-        front, column, columns = _seat(seat, len(plates))
+        front, column, columns = (True, seat, len(plates)) if sided else _seat(seat, len(plates))
         home = np.array([0.0 if columns == 1 else (column / (columns - 1) - 0.5) * 1.6, -1.0 if front else 1.0])
         setting = _laid(plate, laid, groups, 0.0 if front else math.pi, home)
         found.append(_without_the_told(setting, laterals))

@@ -76,3 +76,23 @@ def test_chairs_around_a_table_on_a_rug_are_around_it():
     around = tuple(Relation(child=name, kind="around", parent="table") for name in chairs)
     poses = arrange(assets, relations + around, seed=0).poses
     assert all(one.holds for one in check_relations(around, assets, poses))
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_settings_with_a_side_that_is_told_are_all_seen_from_in_front(count):
+    """Fork left and knife right of every plate as the viewer has it, each next to its own plate."""
+    kinds = {"plate": (0.26, 0.26, 0.02), "fork": (0.2, 0.023, 0.011), "knife": (0.24, 0.022, 0.012)}
+    assets = {"table": table()}
+    assets |= {f"{noun} {k}": block(*size, noun=noun) for noun, size in kinds.items() for k in range(count)}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in assets if name != "table")
+    told = tuple(
+        Relation(child=f"{noun} {k}", kind=kind, parent=f"plate {k}")
+        for noun, kind in (("fork", "left_of"), ("knife", "right_of"))
+        for k in range(count)
+    )
+    poses = arrange(assets, (*on, *told), seed=0).poses
+    assert all(one.holds for one in check_relations(told, assets, poses))
+    middles = {name: np.array(poses[name].position[:2]) for name in assets}
+    for k in range(count):
+        for noun in ("fork", "knife"):
+            assert np.linalg.norm(middles[f"{noun} {k}"] - middles[f"plate {k}"]) < 0.2
