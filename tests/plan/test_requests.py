@@ -304,3 +304,16 @@ def test_each_goes_to_what_has_its_colour(prompt: str):
 )
 def test_a_posture_is_of_all_that_share_the_noun(prompt: str, turned: set[str]):
     assert {each.object for each in PLANNER.plan(prompt).postures} == turned
+
+
+@pytest.mark.parametrize(
+    ("prompt", "task"),
+    [
+        ("Pick up the plant please", "pick:plant"),
+        ("Put the cup on the tray please.", "place:cup:tray"),
+        ("Could you put the pen in the mug please?", "place:pen:mug"),
+    ],
+)
+def test_please_may_stand_last(prompt: str, task: str):
+    plan = PLANNER.plan(prompt)
+    assert (plan.task, plan.notes) == (task, ())

@@ -76,8 +76,11 @@ def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[li
 
 
 def _politely(sentence: list[Token]) -> list[Token]:
-    """Read "hey, would you mind putting it back" as "put it back"."""
+    """Read "hey, would you mind putting it back" as "put it back", "put it back please" without the last word."""
     words = [token.text for token in sentence]
+    if len(words) > 3 and words[-2] == "please" and not sentence[-3].mark:
+        sentence = [*sentence[:-2], sentence[-1]]
+        words = [token.text for token in sentence]
     at = next((n + 1 for n in range(min(4, len(words))) if words[n] == "," and {*words[:n]} <= _GREETING), 0)
     at = at if at and words[0] != "there" else 0
     at += words[at : at + 1] == ["please"]
