@@ -30,7 +30,7 @@ from benchmarks.composing.compared import positions
 from benchmarks.composing.dense import dense
 from benchmarks.composing.extremes import extremes
 from benchmarks.composing.household import household
-from benchmarks.composing.meaning import STEPS, Difference, Meaning, differences
+from benchmarks.composing.meaning import Difference, Meaning, differences
 from benchmarks.composing.mixed import mixed
 from benchmarks.composing.nested import nested
 from benchmarks.composing.parallel import several
@@ -41,6 +41,7 @@ from benchmarks.composing.steps import steps
 from benchmarks.composing.terse import terse
 from benchmarks.composing.wording import Draw
 from pat3d.errors import PromptError
+from pat3d.plan.grammar.meaning.tasks import SEVERAL
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
 
@@ -79,7 +80,7 @@ def judge(planner: GrammarPlanner, text: str, meaning: Meaning) -> Judged:
         return Judged(text=text, verdict="refused", refusal=str(error))
     wrong = differences(meaning, plan)
     # That there are several steps says nothing of a step that is wrong.
-    notes = tuple(note for note in (*plan.notes, *plan.set_aside) if STEPS not in note)
+    notes = tuple(note for note in (*plan.notes, *plan.set_aside) if not note.startswith(SEVERAL))
     silent = [each for each in wrong if not any(names(note, each, text, meaning) for note in notes)]
     verdict = "silently wrong" if silent else "right with notes" if wrong or plan.notes else "right"
     said = tuple(f"{'' if each in silent else '(noted) '}{each.said}" for each in wrong)

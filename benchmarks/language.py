@@ -26,6 +26,7 @@ from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.grammar.words.lexicon import GENERICS
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.task_spec import steps_of
 
 LABELS = Path(__file__).with_name("language_labels.tsv")
 FRESH = Path(__file__).with_name("language_fresh.tsv")
@@ -191,12 +192,14 @@ def _task(task: str, plan: ScenePlan) -> list[str]:
     if plan.task is None:
         reasons = ("not modelled", "several tasks", "read as the scene to make")
         return [] if any(reason in note for note in plan.notes for reason in reasons) else ["no task"]
-    kind, *said = plan.task.split(":")
     nouns = {obj.name: obj.noun for obj in plan.objects}
     wanted = [_wanted(name.strip()) for name in names.split(",")]
-    fits = kind in kinds.split("|") and len(said) == len(wanted)
-    fits = fits and all(nouns[name] in want.nouns for name, want in zip(said, wanted, strict=True))
-    return [] if fits else [f"task {plan.task}"]
+
+    def fits(kind: str, *said: str) -> bool:
+        same = kind in kinds.split("|") and len(said) == len(wanted)
+        return same and all(nouns[name] in want.nouns for name, want in zip(said, wanted, strict=True))
+
+    return [] if any(fits(*step) for step in steps_of(plan.task)) else [f"task {plan.task}"]
 
 
 def _noted(difference: str, notes: str) -> bool:

@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from benchmarks.composing.nouns import MATERIALS, SIZES, Noun
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.colours import find_colour
+from pat3d.plan.grammar.meaning.tasks import SEVERAL
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.task_spec import steps_of
 
 GROUND = "the ground"
 _TURNED = {"right_of": "left_of", "behind": "in_front_of"}
 _SUPPORTS = frozenset({"on", "in", "hangs_from"})
-STEPS = "of which the environment has one at a time: "
-"""How the note begins that lists several tasks."""
 _PAIRINGS = 5000
 """Pairings tried before things are taken to be told apart by their qualities alone."""
 
@@ -297,8 +297,8 @@ def _task(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> li
 
 def _steps(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> list[Difference]:
     """How the tasks that a note lists, where a plan has no single one, differ from the steps that are meant."""
-    told = next((note.partition(STEPS)[2] for note in plan.notes if STEPS in note), "")
-    found = [step.split(":") for step in told.rstrip(".").split(", ")]
+    told = next((note.removeprefix(SEVERAL).strip(" .") for note in plan.notes if note.startswith(SEVERAL)), "")
+    found = steps_of(plan.task) if plan.task else [step.split(":") for step in told.split(", ")]
     right = len(found) == len(meaning.steps) and all(
         kind in kinds and [pairing.get(name) for name in names] == things
         for (kind, *names), (kinds, things) in zip(found, meaning.steps, strict=True)

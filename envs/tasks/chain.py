@@ -15,22 +15,17 @@ from pat3d.envs.tasks.paraphrase import in_turn
 from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, steps_for
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
+from pat3d.scene.task_spec import AND_THEN, CHAIN, STEPS
 
 if TYPE_CHECKING:
     from pat3d.envs.physics.state import SimState, States
-
-STEPS = (2, 5)
-"""Fewest and most steps of a chain."""
-
-AND_THEN = ":then:"
-"""Between the steps of a specification."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Chain(Task):
     """Put, stack, or lift and put back one object after the other, in this order; the last step may pick one up."""
 
-    kind: ClassVar[str] = "chain"
+    kind: ClassVar[str] = CHAIN
     form: ClassVar[str] = "chain:STEP:then:STEP..., as in chain:place:OBJECT:WHERE:then:pick:OBJECT"
 
     steps: tuple[Task, ...]

@@ -7,7 +7,7 @@ from dataclasses import fields
 from typing import Any
 
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
-from pat3d.envs.tasks.chain import AND_THEN, Chain
+from pat3d.envs.tasks.chain import Chain
 from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
 from pat3d.envs.tasks.push import Push, push_task
@@ -15,6 +15,7 @@ from pat3d.envs.tasks.task import Task, split
 from pat3d.envs.tasks.together import Carry, HandOver
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
+from pat3d.scene.task_spec import AND_THEN
 
 TASKS: dict[str, type[Task]] = {
     kind.kind: kind

@@ -13,6 +13,7 @@ from pat3d.plan.naming import Names
 from pat3d.plan.scene_plan import Arrangement, ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS, crossing
 from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation
+from pat3d.scene.task_spec import steps_of
 
 _DEEDS = {"place": "put {0} {where} {1}", "stack": "stack {0} on {1}", "pick": "pick up {0}",
           "unload": "take everything out of {0}", "sort": "sort what is there"}  # fmt: skip
@@ -50,13 +51,21 @@ class _Teller(Names):
         """What is to be done, in words and as it is written down."""
         if self._plan.task is None:
             return []
-        kind, *names = self._plan.task.split(":")
+        deeds = [self._deed(*step) for step in steps_of(self._plan.task)]
+        if not all(deeds):
+            return [f"The task is {self._plan.task}"]
+        return [f"The task is to {', then to '.join(deeds)} ({self._plan.task})"]
+
+    def _deed(self, kind: str, *names: str) -> str:
+        """What a step of the task asks for: "put the pear on the tray"; empty where it is no such step."""
+        if kind == "beside":
+            moved, relation, landmark = names
+            return f"put {self._the(moved)} {RELATION_WORDS[relation]} {self._the(landmark)}"
         known = names and all(name in self._base for name in names)
         if kind not in _DEEDS or not (known or kind == "sort"):
-            return [f"The task is {self._plan.task}"]
+            return ""
         where = self._where(names[1]) if len(names) == 2 else ""
-        said = _DEEDS[kind].format(*map(self._the, names[:1]), *map(self._upon, names[1:]), where=where)
-        return [f"The task is to {said} ({self._plan.task})"]
+        return _DEEDS[kind].format(*map(self._the, names[:1]), *map(self._upon, names[1:]), where=where)
 
     def _where(self, name: str) -> str:
         """Whether what is put to object `name` is put "in" or "on" it: as the prompt has it where both are right."""

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from pat3d.envs.tasks.chain import AND_THEN
+from pat3d.scene.task_spec import AND_THEN
 from pat3d.policies_eval.analysis.report import write_report
 from pat3d.policies_eval.analysis.summary import show_summary, summarise
 from pat3d.policies_eval.run.episodes import Episode

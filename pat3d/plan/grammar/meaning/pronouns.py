@@ -150,6 +150,10 @@ class Pronouns:
         if self.stacking and not child and not plural and steps and len(steps[-1].items) == 1:
             # "Put the red block on the mat and stack the other two on it": on the red block.
             candidates.append((-0.8, list(steps[-1].items)))
+        if self.asked and link is not None and not (child or plural) and steps and (aimed := steps[-1].link):
+            # "Put the fork left of the plate and the knife right of it"
+            across = link.kind is not None and OPPOSITE.get(link.kind) == aimed.kind
+            candidates += [(-0.6, list(steps[-1].goal))] if across else []
         if child and plural and steps and steps[-1].manner == "stack":
             # "Stack the bowl on the plate and place them in the tray"
             candidates.append((-1.2, [*steps[-1].items, *steps[-1].goal]))

@@ -11,8 +11,10 @@ from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import VERBS, base_of
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.holders import FLAT, holds
-from pat3d.scene.relations import SUPPORT_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene.task_spec import STEPS, chain_of
 
+SEVERAL = f"the instruction is several tasks, more than a chain holds ({STEPS[0]} to {STEPS[1]}, each of another thing):"
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
 _GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
@@ -62,11 +64,13 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         picked = [step for step in steps if step.manner == "pick" and step not in wanted and not _is_put(step, steps)]
         picks = (_specs(step, world, names) for step in picked)
         specs = next((made for made in picks if made), [])
-    if len(specs) > 1:
+    specs = list(dict.fromkeys(specs))
+    if len(specs) < STEPS[0]:
+        return (specs[0] if specs else None), notes
+    if (chain := chain_of(specs)) is None:
         listed = ", ".join(specs)
-        notes.append(f"the instruction is several tasks, of which the environment has one at a time: {listed}.")
-        return None, notes
-    return (specs[0] if specs else None), notes
+        notes.append(f"{SEVERAL} {listed}.")
+    return chain, notes
 
 
 def _is_put(picked: Step, steps: Sequence[Step]) -> bool:
@@ -137,8 +141,10 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         return [f"stack:{names[items[0]]}:{names[items[1]]}"]
     if step.manner == "stack" and step.link is None and _ELSEWHERE.search(step.said) is None:
         return _tower(items, names)
-    if goal is None or not _is_placing(step, world, items, goal):
+    if goal is None:
         return []
+    if not _is_placing(step, world, items, goal):
+        return _beside(step, world, items, goal, names)
     noun = world.noun(goal)
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"
@@ -151,6 +157,21 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
     pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
     return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
+
+
+def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: Mapping[Item, str]) -> list[str]:
+    """The tasks by which each of `items` comes to stand beside `goal`, on what carries that: "to the left of the bowl".
+
+    What is brought to a thing that carries nothing is put next to it. Of furniture no robot is told to reach around.
+    """
+    link = step.link
+    if link is None or len({*step.goal}) != 1 or world.on_floor(goal) or goal in items:
+        return []
+    kind = "next_to" if link.manner == "goal" and link.kind in SUPPORT_KINDS else link.kind
+    aimed = link.manner in ("place", "goal") and link.says is None
+    if kind not in LATERAL_KINDS or kind == "around" or not aimed or _BELOW.search(step.said) is not None:
+        return []
+    return [f"beside:{names[item]}:{kind}:{names[goal]}" for item in items]
 
 
 def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:

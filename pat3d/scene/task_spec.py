@@ -1,0 +1,35 @@
+"""How a task is written down: "pick:red mug", "chain:place:pear:tray:then:stack:cup:saucer".
+
+A kind, then the names of what it is about, with colons between. A chain is several of those, to be done in turn. What
+a task asks for and when it is done is told by pat3d.envs.tasks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+CHAIN = "chain"
+AND_THEN = ":then:"
+"""Between the steps of a chain."""
+STEPS = (2, 5)
+"""Fewest and most steps of a chain."""
+PUTTING = frozenset({"place", "stack", "beside"})
+"""Kinds of steps at the end of which a thing stands elsewhere; the last step of a chain may be "pick" as well."""
+
+
+def steps_of(task: str) -> list[list[str]]:
+    """The kind and the names of each step of `task`, which is one step unless it is a chain."""
+    kind, _, rest = task.partition(":")
+    return [step.split(":") for step in (rest.split(AND_THEN) if kind == CHAIN else [task])]
+
+
+def chain_of(steps: Sequence[str]) -> str | None:
+    """The chain of `steps`; None where they make none: too many, one that only looks on, or a thing moved twice."""
+    fewest, most = STEPS
+    told = [step.split(":") for step in steps]
+    moved = [names[1] for names in told if len(names) > 1]
+    kinds = [names[0] for names in told]
+    puts = all(kind in PUTTING for kind in kinds[:-1]) and (not kinds or kinds[-1] in PUTTING | {"pick"})
+    if not fewest <= len(steps) <= most or not puts or len({*moved}) < len(steps):
+        return None
+    return f"{CHAIN}:{AND_THEN.join(steps)}"
