@@ -196,6 +196,8 @@ def _task(task: str, plan: ScenePlan) -> list[str]:
     wanted = [_wanted(name.strip()) for name in names.split(",")]
 
     def fits(kind: str, *said: str) -> bool:
+        if kind == "beside":
+            said, kind = (said[0], said[2]), said[1]
         same = kind in kinds.split("|") and len(said) == len(wanted)
         return same and all(nouns[name] in want.nouns for name, want in zip(said, wanted, strict=True))
 

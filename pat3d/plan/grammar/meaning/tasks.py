@@ -14,13 +14,22 @@ from pat3d.plan.holders import FLAT, holds
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 from pat3d.scene.task_spec import STEPS, chain_of
 
-SEVERAL = f"the instruction is several tasks, more than a chain holds ({STEPS[0]} to {STEPS[1]}, each of another thing):"
+SEVERAL = (
+    f"the instruction is several tasks, more than a chain holds ({STEPS[0]} to {STEPS[1]}, each of another thing):"
+)
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
 _GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
 """Verbs by which what was picked up is no longer where it was, and at no place of the scene."""
 _BELOW = re.compile(r"\b(?:to|on|at) the (?:bottom|lower) (?:side )?of\b", re.IGNORECASE)
 """What is below a thing that holds nothing in it."""
+_BRINGING = frozenset(
+    {"bring", "carry", "move", "transport", "push", "slide", "drag", "nudge", "shove", "shift", "sweep"}
+)
+"""Verbs by which something comes to be beside what it is brought "to"."""
+_SIDE_OF = re.compile(r"\b(left|right)(?:-hand| hand)? side of\b", re.IGNORECASE)
+_NOT_BESIDE = frozenset({"hang", "fill"})
+"""Verbs of which "at the hook" says where it is done."""
 _HELD_OVER = re.compile(r"hold\b.*?\b((?:over|above) .*)", re.IGNORECASE)
 """Where a thing is held that stands nowhere then."""
 _HARDLY = 1.0
@@ -164,13 +173,15 @@ def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: 
 
     What is brought to a thing that carries nothing is put next to it. Of furniture no robot is told to reach around.
     """
-    link = step.link
-    if link is None or len({*step.goal}) != 1 or world.on_floor(goal) or goal in items:
+    link, verbs = step.link, {base_of(word) for word in step.said.lower().split()}
+    if link is None or link.says is not None or len({*step.goal}) != 1 or world.on_floor(goal) or goal in items:
         return []
-    kind = "next_to" if link.manner == "goal" and link.kind in SUPPORT_KINDS else link.kind
-    aimed = link.manner in ("place", "goal") and link.says is None
-    if kind not in LATERAL_KINDS or kind == "around" or not aimed or _BELOW.search(step.said) is not None:
+    brought = link.manner == "goal" and link.kind == "on" and link.said != "onto" and bool(verbs & _BRINGING)
+    beside = link.manner == "place" and link.kind in LATERAL_KINDS and link.kind != "around"
+    if not (brought or beside) or verbs & _NOT_BESIDE or _BELOW.search(step.said) is not None:
         return []
+    side = _SIDE_OF.search(step.said) if brought else None
+    kind = f"{side[1].lower()}_of" if side else "next_to" if brought else link.kind
     return [f"beside:{names[item]}:{kind}:{names[goal]}" for item in items]
 
 
