@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from pat3d.envs.suites.composer import STACKED_WIDTH, Composer
 from pat3d.envs.suites.pools import BOWL, BOWL_WIDTH, BROAD, COLOURS, FLAT, HOME_WIDTH, LONG, STANDING, WIDE
-from pat3d.scene.task_spec import AND_THEN
 from pat3d.envs.tasks.goals import Rearrange
 from pat3d.envs.tasks.push import Push
 from pat3d.scene.relations import SupportKind
+from pat3d.scene.task_spec import AND_THEN
 
 TO_A_SIDE, NEXT = ":to a side", ":next"
 """End the task of a core that pushes something by a distance or to an edge, or next to something else: what exactly is
