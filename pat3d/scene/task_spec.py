@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.scene.relations import LATERAL_KINDS
+
 CHAIN = "chain"
 AND_THEN = ":then:"
 """Between the steps of a chain."""
@@ -16,11 +18,24 @@ STEPS = (2, 5)
 PUTTING = frozenset({"place", "stack", "beside"})
 """Kinds of steps at the end of which a thing stands elsewhere; the last step of a chain may be "pick" as well."""
 
+ASIDE = tuple(sorted(LATERAL_KINDS - {"around"}))
+"""Relations of "beside:OBJECT:RELATION:LANDMARK"."""
+_NAMES = {"pick": 1, "unload": 1, "place": 2, "stack": 2, "sort": 0}
+"""How many things a step names."""
+
 
 def steps_of(task: str) -> list[list[str]]:
     """The kind and the names of each step of `task`, which is one step unless it is a chain."""
     kind, _, rest = task.partition(":")
     return [step.split(":") for step in (rest.split(AND_THEN) if kind == CHAIN else [task])]
+
+
+def about(step: Sequence[str]) -> tuple[str, ...] | None:
+    """The names of what `step` is about; None where it is none of the steps that a sentence asks for."""
+    kind, *names = step
+    if kind == "beside" and len(names) == 3 and names[1] in ASIDE:
+        return names[0], names[2]
+    return tuple(names) if _NAMES.get(kind) == len(names) else None
 
 
 def chain_of(steps: Sequence[str]) -> str | None:

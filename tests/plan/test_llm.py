@@ -168,6 +168,8 @@ def test_what_breaks_the_schema_is_said(text, says):
          "same support"),
         (plan(obj("mug", "mug"), task="explode:mug"), "no task"),
         (plan(obj("mug", "mug"), task="pick:cup"), "no task"),
+        (plan(obj("mug", "mug"), obj("tray", "tray"), task="beside:mug:on:tray"), "no task"),
+        (plan(obj("mug", "mug"), obj("tray", "tray"), task="chain:pick:mug:then:place:mug:tray"), "no task"),
         (plan(obj("mug", "mug", scale=1e9)), "scale"),
         (plan(), "no object"),
         (plan(obj("a", "mug"), obj("b", "can"), arrangements=[arranged("between", ["a"], ["b"])]),
@@ -220,6 +222,26 @@ def test_what_the_plan_does_not_bring_about_is_noted(ask):
     with serving(said(plan(obj("mug", "mug"), postures=[posture]))) as server:
         made = LLMPlanner(ask(server).chat).plan("a mug upside down")
     assert 'not arranged: "upside down" of "mug"' in made.notes
+
+
+@pytest.mark.parametrize(
+    ("task", "told"),
+    [
+        ("beside:mug:left_of:tray", "put the mug to the left of the tray"),
+        (
+            "chain:beside:can:behind:tray:then:place:mug:tray",
+            "put the can behind the tray, then to put the mug on the tray",
+        ),
+        ("chain:place:mug:tray:then:pick:can", "put the mug on the tray, then to pick up the can"),
+    ],
+)
+def test_tasks_of_places_beside_and_of_several_steps_are_taken_and_told(ask, task, told):
+    answer = plan(obj("mug", "mug"), obj("tray", "tray"), obj("can", "can"), task=task)
+    with serving(said(answer)) as server:
+        made = LLMPlanner(ask(server).chat).plan("pon la taza")
+        assert len(server.requests) == 1
+    assert made.task == task
+    assert tell(made).endswith(f"The task is to {told} ({task}).")
 
 
 def test_the_model_is_told_every_kind_that_a_scene_holds_and_its_plan_asks_for_it(ask):

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 from pat3d.scene.arrangements import ARRANGEMENTS, MANY, POSTURES, ArrangementRule
 from pat3d.scene.relations import GROUND, LATERAL_KINDS, SUPPORT_KINDS
+from pat3d.scene.task_spec import AND_THEN, ASIDE, STEPS
 
 
 def _counted(counts: tuple[int, int]) -> str:
@@ -49,7 +50,10 @@ A row runs from left to right; "left_of" and the like between its members turn i
 ...) is recorded with `arranged` false.
 
 Instructions. "Put the soup in the basket" describes the scene before it: soup and basket stand apart. `task` is then
-one of pick:OBJECT, place:OBJECT:TARGET, stack:OBJECT:TARGET, unload:CONTAINER, sort, with names of the plan; else null.
+one of pick:OBJECT, place:OBJECT:TARGET, stack:OBJECT:TARGET, beside:OBJECT:RELATION:LANDMARK with one of the lateral
+relations ({", ".join(ASIDE)}), unload:CONTAINER, sort, with names of the plan; else null. Several of them that
+put, stack or place beside, {STEPS[0]} to {STEPS[1]}, each of another object, are chain:STEP{AND_THEN}STEP, in order;
+its last step may be pick:OBJECT.
 
 Notes say in short English sentences what you decided where the description was silent, and name everything that it
 says and the plan does not express. `set_aside` lists words that are background, camera or mood."""

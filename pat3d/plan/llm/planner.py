@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ from pat3d.plan.llm.schema import Shape
 from pat3d.plan.scene_plan import ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS, POSTURES, Arrangement
 from pat3d.scene.relations import GROUND
+from pat3d.scene.task_spec import about, chain_of, steps_of
 
 if TYPE_CHECKING:
     from pat3d.assets.generated.orders import Orders
@@ -29,7 +29,6 @@ MAX_COMPOSED = 5
 """Nouns that are composed for one prompt."""
 PROXY = "box"
 _SCALE = (0.05, 20.0)
-_TASK = re.compile(r"sort|(pick|unload):([^:]+)|(place|stack):([^:]+):([^:]+)")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -209,15 +208,21 @@ def _checked(answer: Answer) -> Answer:
         if not relation.supports and plan.parent(relation.child) != plan.parent(relation.parent):
             faults.append(f'"{relation}" holds only between two objects with the same support.')
     faults += _not_held(plan)
-    if plan.task is not None:
-        found = _TASK.fullmatch(plan.task)
-        if found is None or not {found[at] for at in (2, 4, 5) if found[at]} <= names:
-            faults.append(
-                f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, unload:A or sort, with names of objects.'
-            )
+    if plan.task is not None and not _is_task(plan.task, names):
+        faults.append(
+            f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, beside:A:left_of:B, unload:A, sort or '
+            "chain:STEP:then:STEP, with names of objects."
+        )
     if faults:
         raise AnswerError("\n".join(faults))
     return answer
+
+
+def _is_task(task: str, names: Collection[str]) -> bool:
+    """Whether `task` is about objects called `names`, and a chain where it has several steps."""
+    steps = steps_of(task)
+    known = all((named := about(step)) is not None and {*named} <= {*names} for step in steps)
+    return known and (len(steps) == 1 or chain_of([":".join(step) for step in steps]) == task)
 
 
 def _not_held(plan: ScenePlan) -> list[str]:
