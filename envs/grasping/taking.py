@@ -86,4 +86,5 @@ def _without(scene: Scene, gone: Collection[str]) -> Scene:
     relations = tuple(one for one in scene.relations if not {one.child, one.parent} & set(gone))
     arrangements = tuple(one for one in scene.arrangements if not {*one.names} & set(gone))
     attachments = tuple(one for one in scene.attachments if not {one.child, one.parent} & set(gone))
-    return replace(scene, objects=objects, relations=relations, arrangements=arrangements, attachments=attachments)
+    kept = {"relations": relations, "arrangements": arrangements, "attachments": attachments}
+    return replace(scene, objects=objects, task=None, **kept)

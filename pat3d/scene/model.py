@@ -22,6 +22,7 @@ from pat3d.scene.asset import Asset
 from pat3d.scene.history import Edit
 from pat3d.scene.physics import LEAST_TILT, MAX_TILT, SETTLING_FRICTION
 from pat3d.scene.relations import GROUND, Relation, carriers_of, check_tree, parent_of
+from pat3d.scene.task_spec import named
 
 Point = tuple[float, float, float]
 """[m]"""
@@ -148,7 +149,7 @@ class Scene:
         check_tree(names, self.relations)
         check_arrangements(names, self.relations, self.arrangements)
         self._check_attachments(names)
-        for name in self.task.split(":")[1:] if self.task is not None else ():
+        for name in named(self.task) if self.task is not None else ():
             if name not in names:
                 raise SpecError(f'the task "{self.task}" names "{name}". Objects: {", ".join(names)}.')
 

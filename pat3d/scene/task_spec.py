@@ -6,7 +6,7 @@ a task asks for and when it is done is told by pat3d.envs.tasks.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from pat3d.scene.relations import LATERAL_KINDS
 
@@ -36,6 +36,17 @@ def about(step: Sequence[str]) -> tuple[str, ...] | None:
     if kind == "beside" and len(names) == 3 and names[1] in ASIDE:
         return names[0], names[2]
     return tuple(names) if _NAMES.get(kind) == len(names) else None
+
+
+def named(task: str) -> tuple[str, ...]:
+    """The names of what `task` is about, each once; what stands behind a kind that no sentence asks for are names too."""
+    return tuple(dict.fromkeys(name for step in steps_of(task) for name in about(step) or step[1:]))
+
+
+def renamed(task: str, called: Mapping[str, str]) -> str:
+    """`task` about what is now called otherwise, by the old names."""
+    steps = [":".join((step[0], *(called.get(part, part) for part in step[1:]))) for step in steps_of(task)]
+    return f"{CHAIN}:{AND_THEN.join(steps)}" if task.startswith(f"{CHAIN}:") else steps[0]
 
 
 def chain_of(steps: Sequence[str]) -> str | None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from pat3d.envs.env import TabletopEnv
 from pat3d.envs.tasks.chain import Chain, ChainJudge
 from pat3d.envs.tasks.manipulate import Pick, Place
 from pat3d.envs.tasks.registry import parse_task
@@ -50,6 +52,13 @@ def test_a_chain_is_said_in_its_order_and_needs_what_its_steps_need(breakfast):
     assert all(text.index("green apple") < text.index("red mug") for text in wordings)
     assert task.needs(breakfast).grasp == ("green apple", "red mug")
     assert task.horizon(breakfast, 20.0) == 700
+
+
+def test_a_scene_s_own_chain_is_what_an_environment_asks_for(breakfast):
+    task = "chain:place:green apple:blue bowl:then:place:banana:blue bowl"
+    env = TabletopEnv(scene=replace(breakfast, task=task))
+    assert env.task.spec == task
+    assert set(env.placement.grasps) >= {"green apple", "banana"}
 
 
 class Step:

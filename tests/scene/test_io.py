@@ -249,6 +249,23 @@ def test_a_task_for_what_is_not_there_is_refused(scene):
         replace(scene, task="pick:spoon")
 
 
+@pytest.mark.parametrize(
+    "task", ["chain:place:red mug 1:second:then:pick:red-mug/1", "beside:red mug 1:behind:second", "sort"]
+)
+def test_a_task_of_several_steps_or_of_a_place_reads_back(scene, tmp_path, task):
+    save_scene(replace(scene, task=task), tmp_path / "told")
+    assert load_scene(tmp_path / "told").task == task
+
+
+@pytest.mark.parametrize(
+    "task",
+    ["chain:place:second:spoon:then:pick:red mug 1", "beside:second:behind:spoon", "beside:second:spoon:red mug 1"],
+)
+def test_every_step_of_a_task_is_about_what_is_there(scene, task):
+    with pytest.raises(SpecError, match='names "'):
+        replace(scene, task=task)
+
+
 def test_a_file_that_is_no_json_or_too_large_is_refused(scene, tmp_path, monkeypatch):
     path = save_scene(scene, tmp_path / "s")
     monkeypatch.setattr("pat3d.scene.io.MAX_JSON_BYTES", path.stat().st_size - 1)

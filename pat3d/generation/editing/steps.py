@@ -28,6 +28,7 @@ from pat3d.layout.group import Group
 from pat3d.scene.arrangements import Arrangement, PostureKind
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Relation, Scene, SceneObject
+from pat3d.scene.task_spec import named, renamed
 
 
 def remove(draft: Draft, names: Sequence[str]) -> Draft:
@@ -52,7 +53,7 @@ def remove(draft: Draft, names: Sequence[str]) -> Draft:
             relations = carried_by(relations, name, None if parent == GROUND else parent)
     arrangements, dropped = without(scene, gone)
     notes += [f"no longer said, as part of it is removed: {one}." for one in dropped]
-    task = scene.task if scene.task is None or not gone & set(scene.task.split(":")[1:]) else None
+    task = scene.task if scene.task is None or not gone & {*named(scene.task)} else None
     if task != scene.task:
         notes.append(f'the task "{scene.task}" is dropped with what it is about.')
     left = replace(
@@ -253,7 +254,7 @@ def _exchanged(scene: Scene, old: SceneObject, new: SceneObject) -> Scene:
         attachments=tuple(
             replace(one, child=called(one.child), parent=called(one.parent)) for one in scene.attachments
         ),
-        task=None if scene.task is None else ":".join(map(called, scene.task.split(":"))),
+        task=None if scene.task is None else renamed(scene.task, {old.name: new.name}),
     )
 
 
