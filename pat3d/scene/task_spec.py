@@ -39,7 +39,7 @@ def about(step: Sequence[str]) -> tuple[str, ...] | None:
 
 
 def named(task: str) -> tuple[str, ...]:
-    """The names of what `task` is about, each once; what stands behind a kind that no sentence asks for are names too."""
+    """The names of what `task` is about, each once; of a kind that no sentence asks for, all that stands behind it."""
     return tuple(dict.fromkeys(name for step in steps_of(task) for name in about(step) or step[1:]))
 
 
