@@ -2,7 +2,7 @@
 
 What a sentence says can be compared with its plan only where a rule knows the wording. Beyond that, how likely a
 reading is wrong shows in the wording itself: of patterns of three words (see wording), names and numbers left out,
-those are known that occur in sentences whose reading was checked (benchmarks/tried.py collects them).
+those are known that occur in several sentences whose reading was checked (benchmarks/tried.py collects them).
 """
 
 from __future__ import annotations
