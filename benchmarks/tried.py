@@ -4,7 +4,8 @@
 
 Checked are the sentences that the tests of the planner have it read, the texts in all tests, the sentences of
 language_fresh.tsv that are not silently misread, and composed ones whose reading is what they mean; a pattern counts
-that two of them have. It runs the tests of the planner, which takes minutes. With `--check` nothing is written: the patterns that the file lacks are counted.
+that two of them have. It runs the tests of the planner, which takes minutes. With `--check` nothing is written: the
+patterns that the file lacks are counted.
 """
 
 from __future__ import annotations
