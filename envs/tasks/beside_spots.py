@@ -102,7 +102,7 @@ def carrier_of(scene: Scene, name: str) -> str:
     if len(carriers) > 1 or kinds - {"on"}:
         carried = ", ".join(f'"{one}"' for one in carriers)
         raise TaskError(f'"{name}" does not stand on a surface but in, from or across {carried}.')
-    carrier = carriers[0]
+    carrier = scene.parent(name)
     if carrier != GROUND and scene[carrier].asset.region("on") is None:
         raise TaskError(f'"{carrier}", on which "{name}" stands, has no top on which there is room.')
     if carrier == GROUND and abs(float(points_of(scene, name)[:, 2].min())) > CONTACT_DEPTH:
@@ -171,7 +171,7 @@ def spots(relation: str, view: Outlook) -> Spots:
     """Where the object may be put, turned as it is, so that the relation holds with a margin and nothing is met."""
     own, landmark = view.own, view.landmark
     shifts, worse = _shifts(relation, view)
-    holds = view.surface.holds(own.footprint + shifts[:, None]).all(axis=1)
+    holds = np.asarray(view.surface.holds(own.footprint + shifts[:, None]).all(axis=1))
     names = list(view.others)
     gaps = _gaps(own.footprint, list(view.others.values()), shifts)
     nearest = gaps.min(axis=0, initial=np.inf)
