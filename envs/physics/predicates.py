@@ -15,7 +15,7 @@ import numpy as np
 
 from pat3d.envs.compiled import compiled
 from pat3d.envs.physics.snapshot import Array, Floors, Mask, Numbers, Snapshot
-from pat3d.envs.physics.world import FLOOR, ROBOT
+from pat3d.envs.physics.world import FLOOR, ROBOT, SUPPORT
 
 TOPPLED_DEGREES = 30.0
 """An object that turned its upright axis by more than this since the start has toppled."""
@@ -43,8 +43,8 @@ OWNERS = 3
 
 _TOPPLED_COSINE = math.cos(math.radians(TOPPLED_DEGREES))
 _UPRIGHT_COSINE = math.cos(math.radians(UPRIGHT_DEGREES))
-ROBOT_ROW, FLOOR_ROW = OWNERS + ROBOT, OWNERS + FLOOR
-"""Of the robot and the floor in a table of contacts."""
+ROBOT_ROW, SUPPORT_ROW, FLOOR_ROW = OWNERS + ROBOT, OWNERS + SUPPORT, OWNERS + FLOOR
+"""Of the robot, the workbench and the floor in a table of contacts."""
 
 NEAR_HAND, NEAR_GRASP, NEAR_GOAL = 0.2, 0.03, 0.25
 """Lengths over which the closeness of the hand to a grasp falls, from afar and close by, and of an object to its goal
@@ -72,6 +72,12 @@ def held(s: Snapshot, world: int, obj: int) -> bool:
     row = OWNERS + obj
     first = s.pinched[world, 0, row] & s.pinched[world, 1, row]
     return first | (s.pinched[world, -2, row] & s.pinched[world, -1, row])
+
+
+@compiled
+def grounded(s: Snapshot, world: int, obj: int) -> bool:
+    """Whether the object touches the ground of its scene, which is the workbench or the floor."""
+    return s.touching[world, SUPPORT_ROW, OWNERS + obj] | s.touching[world, FLOOR_ROW, OWNERS + obj]
 
 
 @compiled

@@ -78,7 +78,9 @@ class States:
 
 
 # A single look into a table takes longer through what is compiled.
-_touch, _touched, _held = map(as_written, (predicates.touch, predicates.touched, predicates.held))
+_touch, _touched, _held, _grounded = map(
+    as_written, (predicates.touch, predicates.touched, predicates.held, predicates.grounded)
+)
 
 
 class SimState:
@@ -133,6 +135,10 @@ class SimState:
     def touched(self, name: str) -> bool:
         """Whether the robot touches the object."""
         return bool(_touched(self.states.snapshot, self._number, self._numbers[name]))
+
+    def grounded(self, name: str) -> bool:
+        """Whether the object touches the workbench or the floor."""
+        return bool(_grounded(self.states.snapshot, self._number, self._numbers[name]))
 
     def held(self, name: str) -> bool:
         """Whether both fingers touch the object."""

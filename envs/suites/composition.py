@@ -15,6 +15,7 @@ from pat3d.envs.suites.composer import Composer, ExhaustedError
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.request import MAX_OBJECTS, Request
 from pat3d.envs.suites.structures import CORES, NEXT, SIDES, TO_A_SIDE, Core
+from pat3d.envs.tasks.beside import Beside, drawn_beside
 from pat3d.envs.tasks.goals import Rearrange, rearranged
 from pat3d.envs.tasks.push import Push, drawn_neighbour, drawn_push, drawn_shift
 from pat3d.envs.tasks.task import split
@@ -85,12 +86,12 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
     raise RuntimeError(f"no composition for place {place} of {request}")
 
 
-DRAWS = {Rearrange.kind: 1, Push.kind: 6}
+DRAWS = {Rearrange.kind: 1, Push.kind: 6, Beside.kind: 6}
 """Goals that are drawn for a scene, one after the other, until the robot can do one, by kind of task."""
 
 
 def pointed(made: Draft, scene: Scene, number: int = 0) -> Draft:
-    """The draft with the points to which its objects are moved, or the distance, drawn where its scene leaves room.
+    """The draft with the points, the distance or the side to which its objects go drawn where its scene has room.
 
     Args:
         made: a draft.
@@ -107,6 +108,8 @@ def pointed(made: Draft, scene: Scene, number: int = 0) -> Draft:
     if kind == Push.kind:
         drawn = next((how for end, how in _PUSHES.items() if made.task.endswith(end)), drawn_push)
         return replace(made, task=drawn(scene, names[0], random).spec)
+    if kind == Beside.kind:
+        return replace(made, task=drawn_beside(scene, names[0], names[1], random).spec)
     return made
 
 

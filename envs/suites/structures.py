@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from pat3d.envs.suites.composer import STACKED_WIDTH, Composer
 from pat3d.envs.suites.pools import BOWL, BOWL_WIDTH, BROAD, COLOURS, FLAT, HOME_WIDTH, LONG, STANDING, WIDE
+from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.goals import Rearrange
 from pat3d.envs.tasks.push import Push
 from pat3d.scene.relations import SupportKind
@@ -231,6 +232,32 @@ def _push(how: str) -> Callable[[Composer], str]:
     return build
 
 
+def _beside_loose(c: Composer) -> str:
+    # In which relation is drawn when it is known where everything stands.
+    target = c.item(moved=True)
+    c.places.append(c.item())
+    return f"{Beside.kind}:{target}:{c.places[-1]}"
+
+
+def _beside_container(kind: str) -> Callable[[Composer], str]:
+    def build(c: Composer) -> str:
+        landmark = c.container(kind, place=True)
+        return f"{Beside.kind}:{c.item(moved=True)}:{landmark[0]}"
+
+    return build
+
+
+def _beside_from(kind: str) -> Callable[[Composer], str]:
+    """From in or on something to beside something else."""
+
+    def build(c: Composer) -> str:
+        target = c.into(c.container(kind), moved=True)
+        c.places.append(c.item())
+        return f"{Beside.kind}:{target}:{c.places[-1]}"
+
+    return build
+
+
 def _carry_empty(c: Composer) -> str:
     return f"carry:{c.item(moved=True, groups=(BROAD,))}"
 
@@ -310,6 +337,13 @@ CORES: dict[str, tuple[Core, ...]] = {
         _core("to a point", 1, _push("")),
         _core("to a side", 1, _push(TO_A_SIDE)),
         _core("next to another", 1, _push(NEXT)),
+    ),
+    "beside": (
+        _core("another", 2, _beside_loose),
+        _core("a container", 2, _beside_container("in")),
+        _core("a carrier", 2, _beside_container("on")),
+        _core("another, from a container", 3, _beside_from("in")),
+        _core("another, from a carrier", 3, _beside_from("on")),
     ),
     "carry": (_core("empty", 1, _carry_empty), _core("with something in or on it", 2, _carry_loaded)),
     "handover": (_core("loose", 1, _hand_over),),

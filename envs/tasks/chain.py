@@ -10,9 +10,10 @@ import numpy as np
 
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Numbers
+from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
 from pat3d.envs.tasks.paraphrase import in_turn
-from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, steps_for
+from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, rests_upon, steps_for
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 from pat3d.scene.task_spec import AND_THEN, CHAIN, STEPS
@@ -36,7 +37,7 @@ class Chain(Task):
             raise TaskError(f"a chain has {fewest} to {most} steps, not {len(self.steps)}.")
         for number, step in enumerate(self.steps):
             last = number == len(self.steps) - 1
-            if not isinstance(step, Place | Stack | Lift) and not (last and isinstance(step, Pick)):
+            if not isinstance(step, Place | Stack | Beside | Lift) and not (last and isinstance(step, Pick)):
                 raise TaskError(
                     f'"{step.spec}" cannot be step {number + 1}: steps put, stack or lift, the last may pick.'
                 )
@@ -61,6 +62,11 @@ class Chain(Task):
     def check(self, scene: Scene) -> None:
         for step in self.steps:
             step.check(scene)
+        # What is beside something that is then taken away, with what it stands on or alone, is beside it no longer.
+        away = [step.names[0] for step in self.steps if not isinstance(step, Lift)]
+        for step in self.steps:
+            if isinstance(step, Beside):
+                _stays(scene, step, away)
 
     def needs(self, scene: Scene) -> Needs:
         needs = [step.needs(scene) for step in self.steps]
@@ -78,6 +84,13 @@ class Chain(Task):
 
     def judge(self, states: States) -> Judge:
         return ChainJudge(states, self.steps)
+
+
+def _stays(scene: Scene, step: Beside, away: list[str]) -> None:
+    """Raise TaskError where other steps move what something is put beside."""
+    for name in away:
+        if name == step.landmark or (name != step.target and rests_upon(scene, step.landmark, name)):
+            raise TaskError(f'"{step.spec}" cannot be a step of this chain: another step moves "{name}".')
 
 
 def _grouped(steps: tuple[Task, ...]) -> list[list[Task]]:

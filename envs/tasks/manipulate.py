@@ -23,6 +23,7 @@ from pat3d.envs.tasks.task import (
     origin,
     point,
     present,
+    rests_upon,
     standing_on,
 )
 from pat3d.errors import TaskError
@@ -177,12 +178,8 @@ def check_move(scene: Scene, target: str, where: str) -> None:
     present(scene, where)
     if target == where:
         raise TaskError(f'"{target}" cannot be put into or onto itself.')
-    below = [where]
-    while below:
-        carriers = [one for one in scene.carriers(below.pop()) if one != GROUND]
-        if target in carriers:
-            raise TaskError(f'"{where}" stands on "{target}".')
-        below += carriers
+    if rests_upon(scene, where, target):
+        raise TaskError(f'"{where}" stands on "{target}".')
     region = scene[where].asset.region("in")
     if region is not None:
         width, inside = narrowest(scene[target]), 2 * min(region.half_size)

@@ -151,7 +151,8 @@ class Planner:
 
     def _spots(self, goal: Goal) -> list[Array]:
         if goal.at is not None:
-            return [np.array([*goal.at, self._env.placement.surface])]
+            surface = self._env.placement.surface if goal.height is None else goal.height
+            return [np.array([*goal.at, surface])]
         if not goal.where:
             return free_spots(self._env, goal.name)
         return spots_over(self._env, goal.name, goal.where, on=goal.on, more=goal.shared)

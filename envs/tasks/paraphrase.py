@@ -36,6 +36,14 @@ _PLACE = (
     "{it} belongs {how} {where}; put it there",
 )
 
+_BESIDE = (
+    "put {it} {where}",
+    "place {it} {where}",
+    "move {it} so that it stands {where}",
+    "take {it} and set it down {where}",
+    "i want {it} {where}; put it there",
+)
+
 _STACK = (
     "stack {it} on {where}",
     "put {it} on top of {where}",
@@ -98,6 +106,7 @@ WORDINGS = {
     "pick": _PICK,
     "lift": _LIFT,
     "place": _PLACE,
+    "beside": _BESIDE,
     "stack": _STACK,
     "sort": _SORT,
     "unload": _UNLOAD,

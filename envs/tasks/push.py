@@ -101,7 +101,7 @@ class Push(Task):
     def _at_rest(self, scene: Scene) -> Outlook:
         own, centre = points_of(scene, self.target)[:, :2], centre_of_mass(scene, self.target)[:2]
         other = points_of(scene, self.where.names[0])[:, :2] if self.where.names else None
-        return Outlook(own=own, centre=centre, start=centre, other=other, bench=_bench(scene, self.target))
+        return Outlook(own=own, centre=centre, start=centre, other=other, bench=bench_at_rest(scene, self.target))
 
     def _blocked(self, scene: Scene, way: Array) -> str:
         """What stands where the object would get to [m], seen from above; nothing where it is free."""
@@ -219,8 +219,13 @@ def drawn_neighbour(scene: Scene, name: str, random: np.random.Generator) -> Pus
     raise TaskError(f'there is nothing to which "{name}" could be pushed.')
 
 
-def _bench(scene: Scene, name: str) -> tuple[tuple[float, float], tuple[float, float]] | None:
-    """Lower and upper corner of the workbench [m], but for the room that the robot takes behind the work."""
+def bench_at_rest(scene: Scene, name: str) -> tuple[tuple[float, float], tuple[float, float]] | None:
+    """Lower and upper corner of the workbench [m], but for the room that the robot takes; None for a scene without one.
+
+    Args:
+        scene: at rest.
+        name: of what is moved.
+    """
     site = Site.of(scene, Needs(push=(name,)))
     if not site.bench:
         return None

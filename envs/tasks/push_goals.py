@@ -257,7 +257,7 @@ class Touching:
         """See `Where`."""
         scene = states.world.scene
         (body, own), (other, its) = (
-            (states.bodies[states.numbers[name]], _hull(corners(scene[name].asset))) for name in (target, self.name)
+            (states.bodies[states.numbers[name]], hull(corners(scene[name].asset))) for name in (target, self.name)
         )
 
         def measured() -> tuple[Array, Array]:
@@ -272,7 +272,7 @@ class Touching:
         return measured
 
 
-def _hull(points: Array) -> Array:
+def hull(points: Array) -> Array:
     """Those of points that no plane leaves inside, shape (n, 3)."""
     from scipy.spatial import ConvexHull
 

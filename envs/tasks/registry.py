@@ -7,6 +7,7 @@ from dataclasses import fields
 from typing import Any
 
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
+from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.chain import Chain
 from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
@@ -19,7 +20,7 @@ from pat3d.scene.task_spec import AND_THEN
 
 TASKS: dict[str, type[Task]] = {
     kind.kind: kind
-    for kind in (Pick, Lift, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Push, Carry, HandOver)
+    for kind in (Pick, Lift, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Push, Beside, Carry, HandOver)
 }
 """Every kind of task by the first word of its specification."""
 
@@ -54,10 +55,10 @@ def _step(spec: str) -> Task:
 
 
 def possible_tasks(scene: Scene) -> Iterator[Task]:
-    """Every task that the scene's tree and sizes allow one arm, but for chains and rearrangements."""
+    """Every task that the scene's tree and sizes allow one arm, but for chains, rearrangements and `beside`."""
     names = [obj.name for obj in scene.objects]
     for kind in TASKS.values():
-        if kind in (Chain, Rearrange, Carry, HandOver):
+        if kind in (Chain, Rearrange, Beside, Carry, HandOver):
             continue
         count = len(fields(kind))
         combinations = (

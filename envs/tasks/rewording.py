@@ -13,10 +13,12 @@ from functools import cache
 
 from pat3d.assets.catalogue import find
 from pat3d.assets.colours import find_colour
+from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.naming import spoken
 from pat3d.envs.tasks.task import Task
 from pat3d.errors import Pat3dError
 from pat3d.scene.model import Scene
+from pat3d.scene.relations import RELATION_WORDS
 
 MAX_LETTERS = 200
 """Of a sentence."""
@@ -30,6 +32,15 @@ _GOAL = {
     "place": ("in", "into", "inside", "on", "onto", "upon", "to"),
     "stack": ("on", "onto", "upon", "atop"),
 }
+_SIDE = {
+    "left_of": r"left (?:side )?of",
+    "right_of": r"right (?:side )?of",
+    "in_front_of": r"front of",
+    "behind": r"behind",
+    "next_to": r"next to|beside",
+}
+"""What stands before the thing beside which another is put, by relation."""
+
 _SOURCE = {"from", "off", "out of", "on", "in", "inside"}
 """Before what something is taken from."""
 
@@ -160,6 +171,14 @@ def _misdirected(sentence: str, task: Task, scene: Scene, said: _Said) -> str | 
         goals = set(_GOAL[task.kind])
         if not before[goal] <= goals or before[moved] & {*goals, "from", "off", "out of"}:
             return f"it does not say that {_told([moved])} goes to {_told([goal])}"
+    if isinstance(task, Beside):
+        if words.isdisjoint(_PUT):
+            return "it does not say that something is put somewhere"
+        sides = rf"\b(?:{_SIDE[task.relation]})\s+(?:the\s+)?@(\d+)\b"
+        beside = {said.names[int(number)] for number in re.findall(sides, said.marked)}
+        if beside != {spoken(scene, task.landmark).lower()}:
+            where = f"{RELATION_WORDS[task.relation]} {_told([spoken(scene, task.landmark)])}"
+            return f"it does not say that {_told([spoken(scene, task.target)])} goes {where}"
     if task.kind == "chain" and said.names != _named(task.instruction(scene), scene).names:
         return "it names things in another order"
     return None

@@ -45,7 +45,9 @@ class Goal:
     on: bool = False
     """Onto the top of `where`, though it has an inside."""
     at: tuple[float, float] | None = None
-    """Put it down so that its centre is above this point of the work's surface [m]."""
+    """Put it down so that its centre is above this point [m]."""
+    height: float | None = None
+    """Of the surface there [m]; None for that of the work."""
     shared: bool = False
     """Others belong there too, so that its middle is left free."""
 
@@ -202,6 +204,17 @@ def standing_on(scene: Scene, parent: str) -> tuple[str, ...]:
     """Objects directly on `parent`, not in it, in the order of the scene."""
     on = {rel.child for rel in scene.relations if rel.kind == "on" and rel.parent == parent}
     return tuple(obj.name for obj in scene.objects if obj.name in on)
+
+
+def rests_upon(scene: Scene, name: str, other: str) -> bool:
+    """Whether an object is carried by another, directly or through others."""
+    below = [name]
+    while below:
+        carriers = [one for one in scene.carriers(below.pop()) if one != GROUND]
+        if other in carriers:
+            return True
+        below += carriers
+    return False
 
 
 def origin(scene: Scene, name: str) -> str:

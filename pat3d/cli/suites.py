@@ -77,6 +77,7 @@ _FOLDER = option("folder", "suite folder", metavar="OUT")
     pat3d suite generate suites/hard --clutter 3,5,8 --alike 2 --visible 0.5 --vary 0.05
     pat3d suite generate suites/chains --tasks chain --steps 4,5 --scenes 100
     pat3d suite generate suites/pushing --tasks push --scenes 100
+    pat3d suite generate suites/beside --tasks beside --scenes 100
     pat3d suite generate suites/two-arms --tasks carry,handover --robot panda+panda
     pat3d suite generate suites/homes --rooms kitchen,living_room
     pat3d suite generate suites/tabletop-v1 --reference tabletop-v1 --workers auto

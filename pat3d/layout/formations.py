@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from pat3d.layout.bodies import Array
 from pat3d.layout.flat import Item, Lateral
+from pat3d.layout.lateral import reach
 from pat3d.scene.relations import SIDES
 
 CLOSE = 0.001
@@ -146,7 +147,7 @@ def far_gap(first: Array, second: Array) -> float:
 
 def reach_of_beside(first: Array, second: Array) -> float:
     """Largest gap [m] at which things of horizontal sizes [m], shape (2,), are next to each other."""
-    return min(max(0.25, float(max(first.max(), second.max()))), 1.0)
+    return float(reach(first, second))
 
 
 def _lattices(cells: Mapping[str, tuple[int, int]], items: Sequence[Item], gap: Gap) -> list[dict[str, Array]]:

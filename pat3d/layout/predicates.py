@@ -26,8 +26,8 @@ exported parts, and the viewer at -y:
 - hangs_from, by contact (a handle on a hook): the child's top is not above the parent's, its centre of mass is
   below what it touches, and it is off the ground.
 
-Arrangements are judged in pat3d.layout.arranged; a posture by the angle of the asset's own vertical
-(pat3d.scene.arrangements).
+What is beside what is measured in pat3d.layout.lateral. Arrangements are judged in pat3d.layout.arranged; a posture by
+the angle of the asset's own vertical (pat3d.scene.arrangements).
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pat3d.errors import SpecError
-from pat3d.geometry.polygons import contains, outline, polygon_gap
+from pat3d.geometry.polygons import contains, outline
 from pat3d.geometry.pose import Pose
 from pat3d.layout.arranged import arrangement_holds, in_grid
 from pat3d.layout.bodies import Array, Placed, distance, place_all
-from pat3d.layout.formations import reach_of_beside
 from pat3d.layout.frames import column_of
+from pat3d.layout.lateral import APART, Box, Seen, next_to, on_side
 from pat3d.scene.arrangements import LINES, Arrangement, Posture, crossing
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation
@@ -250,40 +250,33 @@ class _View:
         return apart <= self.touch and pendant and not touched, detail
 
     def _side(self, child: str, kind: str, parent: str) -> tuple[bool, str]:
-        axis, sign = SIDES[kind]
-        a, b = self.bodies[child], self.bodies[parent]
-        offset = (a.low + a.high - b.low - b.high) / 2
-        along = sign * float(offset[axis])
-        overlap = min(a.high[axis], b.high[axis]) - max(a.low[axis], b.low[axis])
-        smaller = min(a.high[axis] - a.low[axis], b.high[axis] - b.low[axis])
-        other = 1 - axis
-        facing = min(a.high[other], b.high[other]) > max(a.low[other], b.low[other])
-        aligned = facing or abs(float(offset[other])) <= math.sqrt(3.0) * along
-        holds = along > 0.0 and overlap <= 0.5 * smaller and aligned
-        detail = f"centre {along * 1e3:.0f} mm to that side"
-        if overlap > 0.0:
-            detail += f", overlapping by {overlap / smaller:.0%}"
-        return bool(holds), detail + ("" if aligned else f", but {abs(offset[other]) * 1e3:.0f} mm across")
+        found = on_side(kind, self._box(child), self._box(parent))
+        detail = f"centre {float(found.along) * 1e3:.0f} mm to that side"
+        if found.overlap > 0.0:
+            detail += f", overlapping by {float(found.overlap):.0%}"
+        return bool(found.holds), detail + ("" if found.aligned else f", but {float(found.aside) * 1e3:.0f} mm across")
 
     def _beside(self, relation: Relation) -> tuple[bool, str]:
-        a, b = self.bodies[relation.child], self.bodies[relation.parent]
-        reach = reach_of_beside((a.high - a.low)[:2], (b.high - b.low)[:2])
-        limit = reach * (2.0 if relation.kind == "around" else 1.0)
-        gap = polygon_gap(self._footprint(relation.child), self._footprint(relation.parent))
-        apart = max(0.0, float(max(a.low[2] - b.high[2], b.low[2] - a.high[2])))
-        stacked = self._over(relation.child, relation.parent) or self._over(relation.parent, relation.child)
-        holds = gap <= limit and apart <= 0.1 and not stacked
-        detail = f"{gap * 1e3:.0f} mm apart (at most {limit * 1e3:.0f})"
-        if stacked:
+        around = relation.kind == "around"
+        child, parent = (
+            Seen(self._footprint(name), self.bodies[name].centre_of_mass[:2], self._box(name))
+            for name in (relation.child, relation.parent)
+        )
+        found = next_to(child, parent, farther=2.0 if around else 1.0)
+        holds, detail = found.holds, f"{found.gap * 1e3:.0f} mm apart (at most {found.limit * 1e3:.0f})"
+        if found.stacked:
             detail += ", one above the other"
-        if apart > 0.1:
-            detail += f", {apart:.2f} m between their heights"
-        if relation.kind == "around":
+        if found.apart > APART:
+            detail += f", {found.apart:.2f} m between their heights"
+        if around:
             widest = self._widest_gap(relation.parent)
             if widest is not None:
                 holds = holds and widest <= 200.0
                 detail += f", neighbours at most {widest:.0f} degrees apart"
         return bool(holds), detail
+
+    def _box(self, name: str) -> Box:
+        return Box(self.bodies[name].low, self.bodies[name].high)
 
     def _widest_gap(self, centre: str) -> float | None:
         """Widest angle [degrees] between neighbours around `centre`; None for fewer than three."""

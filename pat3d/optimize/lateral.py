@@ -11,6 +11,7 @@ import math
 import torch
 
 from pat3d.geometry.polygons import polygon_gap as overlap_aware_gap
+from pat3d.layout.lateral import APART, ASIDE, FAR, NEAR, OVERLAPPING
 from pat3d.optimize.outline import Box, outside, polygon_gap
 from pat3d.scene.relations import SIDES
 
@@ -26,10 +27,10 @@ def side_loss(kind: str, child: Box, parent: Box, margin: float) -> torch.Tensor
     along = sign * offset[..., axis]
     smaller = torch.minimum(child.size, parent.size)[..., axis]
     facing = _overlap(child, parent, across)
-    aside = offset[..., across].abs() - math.sqrt(3.0) * along
+    aside = offset[..., across].abs() - ASIDE * along
     return (
         torch.relu(margin - along) ** 2
-        + torch.relu(_overlap(child, parent, axis) - 0.5 * smaller + margin) ** 2
+        + torch.relu(_overlap(child, parent, axis) - OVERLAPPING * smaller + margin) ** 2
         + torch.relu(torch.minimum(-facing, aside) + margin) ** 2
     )
 
@@ -53,9 +54,9 @@ def beside_loss(
         margin: by which everything must hold [m].
         reach: factor on the largest gap.
     """
-    limit = torch.maximum(child.size, parent.size)[:2].max().clamp(0.25, 1.0) * reach
+    limit = torch.maximum(child.size, parent.size)[:2].max().clamp(NEAR, FAR) * reach
     apart = torch.maximum(child.low - parent.high, parent.low - child.high)[2]
-    loss = torch.relu(apart - 0.1 + margin) ** 2
+    loss = torch.relu(apart - APART + margin) ** 2
     overlapping = overlap_aware_gap(footprints[0].detach().numpy(), footprints[1].detach().numpy()) == 0.0
     if not overlapping:
         loss = loss + torch.relu(polygon_gap(*footprints) - limit + margin) ** 2

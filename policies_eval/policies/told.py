@@ -113,7 +113,7 @@ class Teller:
         if goal.where is None:
             return state.start_centre(goal.name) + [0.0, 0.0, HELD]
         if goal.at is not None:
-            return np.array([*goal.at, env.placement.surface])
+            return np.array([*goal.at, env.placement.surface if goal.height is None else goal.height])
         if goal.where:
             return spots_over(env, goal.name, goal.where, on=goal.on, more=goal.shared)[0]
         free = free_spots(env, goal.name)

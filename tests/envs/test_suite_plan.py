@@ -163,8 +163,8 @@ def test_tasks_name_objects_of_their_scene():
         kind, *moved = made.task.split(":")
         names = {obj.name for obj in made.plan.objects}
         assert kind == REQUEST.task_of(place)
-        # Where things are rearranged to, or pushed, is drawn with the scene.
-        drawn = {"rearrange": moved, "push": moved[:1]}
+        # Where things are rearranged to, or pushed, or beside what, is drawn with the scene.
+        drawn = {"rearrange": moved, "push": moved[:1], "beside": moved}
         assert set(drawn[kind] if kind in drawn else parse_task(made.task).names) <= names
         assert set(made.moved) <= names
 
