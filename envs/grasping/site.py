@@ -106,6 +106,8 @@ class Site:
     """What the cameras show."""
     work: tuple[str, ...]
     visit: tuple[tuple[float, float, float], ...]
+    room: tuple[tuple[float, float], ...]
+    """What a workbench has to reach beside the objects [m]."""
     directions: tuple[float, ...]
     """From which the robot may face the work [degrees], the preferred one first."""
 
@@ -140,6 +142,7 @@ class Site:
             shown=tuple(name for name in boxes if name in beside),
             work=work,
             visit=needs.visit,
+            room=needs.room,
             directions=DIRECTIONS[:1] if needs.facing else DIRECTIONS,
         )
 
@@ -217,8 +220,8 @@ class Site:
         if self.bench:
             low = np.min([box[0][:2] for box in self.boxes.values()], axis=0)
             high = np.max([box[1][:2] for box in self.boxes.values()], axis=0)
-            for base in (frame.position, *(() if other is None else (other.base_position,))):
-                low, high = np.minimum(low, np.array(base[:2])), np.maximum(high, np.array(base[:2]))
+            for point in (frame.position, *(() if other is None else (other.base_position,)), *self.room):
+                low, high = np.minimum(low, np.array(point[:2])), np.maximum(high, np.array(point[:2]))
             low, high = low - BENCH_RIM, high + BENCH_RIM
             bench = ((float(low[0]), float(low[1])), (float(high[0]), float(high[1])))
         centre = {name: (self.boxes[name][0] + self.boxes[name][1]) / 2 for name in grasps}

@@ -19,6 +19,8 @@ class Needs:
     """Objects to push along, which are not taken."""
     visit: tuple[tuple[float, float, float], ...] = ()
     """Points [m] that the fingertips have to get to, pointing down."""
+    room: tuple[tuple[float, float], ...] = ()
+    """Points seen from above [m] that a workbench has to reach, though nothing stands there yet."""
     together: str = ""
     """"wide" or "near" for two hands that take the object at once, far from one another or not; "" for one hand."""
     cleared: bool = False

@@ -78,7 +78,9 @@ class Beside(Task):
         x, y = found.free[0] if found.free else found.best
         tall = float(view.own.box.high[2] - view.own.box.low[2])
         above = (float(x), float(y), view.surface.height + CARRY_HEIGHT + tall)
-        return Needs(grasp=(self.target,), visit=(above,), facing=self.relation in SIDES)
+        corners = view.own.footprint + (np.array([x, y]) - view.own.centre)
+        room = tuple((float(a), float(b)) for a, b in (corners.min(axis=0), corners.max(axis=0)))
+        return Needs(grasp=(self.target,), visit=(above,), room=room, facing=self.relation in SIDES)
 
     def goals(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> list[Goal]:
         view = at_present(state, self.target, self.landmark)

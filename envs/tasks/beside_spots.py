@@ -111,14 +111,18 @@ def carrier_of(scene: Scene, name: str) -> str:
 
 
 def at_rest(scene: Scene, target: str, landmark: str) -> Outlook:
-    """The scene as it was loaded; raises as `carrier_of`."""
+    """The scene as it was loaded, on a workbench that is to be made as large as it takes; raises as `carrier_of`."""
+    bench, its = bench_at_rest(scene, target), points_of(scene, target)[:, :2]
+    if bench is not None:
+        wide = float(np.ptp(its, axis=0).max()) + GAPS[-1]
+        bench = tuple(np.array(bench[0]) - wide), tuple(np.array(bench[1]) + wide)
     return _outlook(
         scene,
         (target, landmark),
         points=lambda name: points_of(scene, name),
         centre=lambda name: centre_of_mass(scene, name),
         frame=lambda name: (scene[name].pose.rotation, np.array(scene[name].pose.position)),
-        bench=bench_at_rest(scene, target),
+        bench=bench,
     )
 
 

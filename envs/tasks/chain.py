@@ -73,6 +73,7 @@ class Chain(Task):
         return Needs(
             grasp=tuple(dict.fromkeys(name for one in needs for name in one.grasp)),
             visit=tuple(dict.fromkeys(point for one in needs for point in one.visit)),
+            room=tuple(dict.fromkeys(point for one in needs for point in one.room)),
             cleared=True,
         )
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +16,13 @@ from pat3d.check.verification import Verification, broken, relations_at_rest, ve
 from pat3d.errors import CheckError, LayoutError, Pat3dError, SimulationError
 from pat3d.exporters.mjcf.writer import write_mjcf
 from pat3d.generation.checkpoints import Workspace
+from pat3d.generation.not_yet import beside_steps, with_task_to_do
 from pat3d.generation.optimize_stage import OPTIMISATION, available, lost, optimize_scene
 from pat3d.generation.request import SceneRequest, UnplacedObject, derived_seed
 from pat3d.generation.settle_stage import SettledScene, settle_scene
 from pat3d.geometry.pose import Pose
 from pat3d.progress import Clock, Event, Progress
+from pat3d.scene.arrangements import Arrangement
 from pat3d.scene.folder import key_of
 from pat3d.scene.model import GROUND, Relation, Scene, SceneObject, parent_of
 from pat3d.scene.physics import LEAST_TILT
@@ -240,23 +243,32 @@ class Attempts:
             own = {key: scene.provenance[key] for key in (OPTIMISATION,) if key in scene.provenance}
             provenance = {**self._provenance(layout_seed), **own}
             own = {"settling_friction": self.friction, "least_tilt": self.least_tilt, "provenance": provenance}
-            return replace(scene, **own, task=self.request.task), kept[1]
-        from pat3d.layout.layout import arrange
-
+            task = scene.task if beside_steps(self.request.task) else self.request.task
+            return replace(scene, **own, task=task), kept[1]
         if not self._objects_made:
             with self.clock("assets"):
                 self._objects, self._objects_made = self.request.make_objects(self.seed, self.progress), True
         again = f"attempt {number + 1}" if number else ""
         with self.clock("layout"):
             self.progress(Event(stage="arranging", detail=again))
-            layout = arrange(
-                {one.name: one.asset for one in self._objects},
-                self.request.relations,
-                seed=layout_seed,
-                fixed_poses={one.name: one.pose for one in self._objects if one.pose is not None},
-                arrangements=self.request.arrangements,
-                postures={one.name: one.posture for one in self._objects if one.posture is not None},
-            )
+            place = partial(self._placed, layout_seed)
+            scene, notes = with_task_to_do(place, layout_seed, self.request.task, self.request.relations)
+        notes = (*(one.note for one in self._objects if one.note), *notes)
+        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
+        return scene, notes
+
+    def _placed(self, layout_seed: int, seed: int, wishes: tuple[Arrangement, ...]) -> tuple[Scene, tuple[str, ...]]:
+        """The objects as `seed` lays them out, by `wishes` as well, and the layout's notes."""
+        from pat3d.layout.layout import arrange
+
+        layout = arrange(
+            {one.name: one.asset for one in self._objects},
+            self.request.relations,
+            seed=seed,
+            fixed_poses={one.name: one.pose for one in self._objects if one.pose is not None},
+            arrangements=(*self.request.arrangements, *wishes),
+            postures={one.name: one.posture for one in self._objects if one.posture is not None},
+        )
         objects = tuple(_placed(one, layout.poses[one.name], self.request.relations) for one in self._objects)
         scene = Scene(
             objects=objects,
@@ -270,9 +282,7 @@ class Attempts:
             least_tilt=self.least_tilt,
             provenance=self._provenance(layout_seed),
         )
-        notes = (*(one.note for one in self._objects if one.note), *layout.notes)
-        self.workspace.save_layout(number, {"layout": inputs["layout"]}, scene, notes)
-        return scene, notes
+        return scene, layout.notes
 
     def _settled(self, number: int, scene: Scene, notes: tuple[str, ...], inputs: Mapping[str, str]) -> SettledScene:
         kept = self.workspace.settled(number, inputs["rest"], scene)

@@ -94,7 +94,8 @@ def request_of(plan: ScenePlan, allow_proxies: bool) -> SceneRequest:
         relations=plan.relations,
         fingerprint=[objects, [[rel.child, rel.kind, rel.parent] for rel in plan.relations], allow_proxies]
         + ([arranged, postured] if arranged or postured else [])
-        + ([foreign] if foreign else []),
+        + ([foreign] if foreign else [])
+        + ([plan.task] if "beside:" in (plan.task or "") else []),
         arrangements=plan.held(),
         make_objects=lambda seed, progress: objects_of_plan(plan, seed, progress),
         task=plan.task,
