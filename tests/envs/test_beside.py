@@ -225,6 +225,25 @@ def test_spots_are_where_their_words_say(table):
     assert not parse_task("beside:mug:next_to:plate").needs(table).facing
 
 
+def test_spots_are_on_the_surface_however_it_is_turned():
+    """A long board turned by 40 degrees: every corner of the mug is over it, in its own frame."""
+    turn = Pose.from_matrix(Rotation.from_euler("z", 40.0, degrees=True).as_matrix(), np.array([0.0, 0.0, GAP]))
+    board = placed("board", asset_of(box(0.6, 0.18, 0.02)), pose=turn)
+    plate = placed("plate", asset_of(box(0.06, 0.06, 0.03)), (0.0, 0.0, 0.02 + 2 * GAP))
+    scene = scene_of(
+        placed("mug", CUBE, (0.0, -0.4, GAP)), board, plate,
+        relations=(Relation(child="plate", kind="on", parent="board"),),
+    )  # fmt: skip
+    parse_task("beside:mug:right_of:plate").check(scene)
+    for spot in spots("right_of", at_rest(scene, "mug", "plate")).free:
+        corners = spot + 0.02 * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
+        own = corners @ turn.rotation[:2, :2]
+        assert (np.abs(own) <= [0.3, 0.09]).all()
+    # Across the board there is no room.
+    with pytest.raises(TaskError, match="edge of the surface"):
+        parse_task("beside:mug:left_of:board").check(scene_of(*scene.objects[1:2], placed("mug", BOARD, (0.6, 0, GAP))))
+
+
 class Worlds(States):
     """Worlds in states that a test makes up: two objects anywhere, turned and leaning, in contact with the ground."""
 
@@ -397,6 +416,34 @@ def test_what_the_robot_touches_is_not_let_go(env):
     assert judge.update(np.array([0.5])).success[0]
     now.touching[0, OWNERS - 1, number] = now.touching[0, number, OWNERS - 1] = True
     assert not judge.update(np.array([0.5])).success[0]
+
+
+def test_a_surface_carries_what_touches_it_as_high_as_the_landmark_stands(env, on_board):
+    """Neither what hovers a little above the table or beside the board does, nor a plate that is lifted."""
+    env.reset(seed=0, options={"task": "beside:mug:left_of:plate"})
+    put(env, "mug", (-0.25, 0.05, GAP))
+    judge, now = env.task.judge(env.simulation.states), env.simulation.states.snapshot
+    assert judge.update(np.zeros(1)).predicates["same surface"][0]
+    plate = env.simulation.world.bodies["plate"]
+    now.xpos[0, plate, 2] += 0.02
+    assert not judge.update(np.zeros(1)).predicates["same surface"][0]
+    now.xpos[0, plate, 2] -= 0.02
+    number = OWNERS + env.simulation.states.numbers["mug"]
+    now.touching[0, SUPPORT_ROW, number] = now.touching[0, number, SUPPORT_ROW] = False
+    assert not judge.update(np.zeros(1)).predicates["same surface"][0]
+    on_board.reset(seed=0)
+    goals = on_board.task.goals(on_board.simulation.state, ("mug",))
+    assert [goal.height for goal in goals] == pytest.approx([0.02] * len(goals), abs=1e-3)
+
+
+def test_a_step_of_a_chain_begins_where_the_landmark_is_then(env):
+    env.reset(seed=0, options={"task": "beside:mug:left_of:plate"})
+    judge = env.task.judge(env.simulation.states)
+    assert judge.update(np.zeros(1)).predicates["landmark stays"][0]
+    put(env, "plate", (0.0, 0.2, GAP))
+    assert not judge.update(np.zeros(1)).predicates["landmark stays"][0]
+    judge.begin(np.array([0]))
+    assert judge.update(np.zeros(1)).predicates["landmark stays"][0]
 
 
 def test_moving_the_landmark_instead_does_not_count(env):
