@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 
 RELATIONS = (*SIDES, "next_to")
 
+NEARLY = 0.05
+"""A drawn relation does not hold either when the object is moved by this along an axis [m]."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class Beside(Task):
@@ -106,6 +109,13 @@ class Beside(Task):
         return BesideJudge(states, self.target, self.relation, self.landmark)
 
 
+def _nearly(scene: Scene, task: Beside) -> bool:
+    """Whether the relation would hold if the object stood a little elsewhere."""
+    view = at_rest(scene, task.target, task.landmark)
+    ways = np.array([[NEARLY, 0.0], [-NEARLY, 0.0], [0.0, NEARLY], [0.0, -NEARLY]])
+    return any(related(task.relation, view.own.shifted(way), view.landmark) for way in ways)
+
+
 def drawn_beside(scene: Scene, target: str, landmark: str, random: np.random.Generator) -> Beside:
     """A task for two objects of a scene, with a relation drawn among those that are possible as far as sizes go.
 
@@ -118,5 +128,6 @@ def drawn_beside(scene: Scene, target: str, landmark: str, random: np.random.Gen
             task.check(scene)
         except TaskError:
             continue
-        return task
+        if not _nearly(scene, task):
+            return task
     raise TaskError(f'"{target}" can be put to no side of "{landmark}".')

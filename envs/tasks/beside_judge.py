@@ -140,14 +140,16 @@ class BesideJudge(Judge):
         middle = now.xipos[:, now.bodies[self._landmark], :2]
         self._before = np.where(np.isnan(self._before), middle, self._before)
         stays = np.asarray(steady & (np.linalg.norm(middle - self._before, axis=1) <= STAYED))
-        released = self._each(predicates.at_rest)
+        row = predicates.OWNERS + target
+        held = (now.pinched[:, 0, row] & now.pinched[:, 1, row]) | (now.pinched[:, -2, row] & now.pinched[:, -1, row])
+        released = np.asarray(self._each(predicates.still) & ~now.touching[:, predicates.ROBOT_ROW, row])
         there = beside & surface & upright
         self.timer[:] = np.where(there & released & stays, self.timer + seconds, 0.0)
         done = np.asarray(self.timer >= REST_SECONDS - 1e-9)
         goal = np.column_stack([middle + self._way[:2], parent.low[:, 2] + self._way[2]])
         away = np.linalg.norm(now.xipos[:, now.bodies[target]] - goal, axis=1)
         steps = 0.2 * np.where(there, 1.0, self._each(predicates.reached))
-        steps += 0.2 * (there | self._each(predicates.held)) + 0.2 * (there & released)
+        steps += 0.2 * (there | held) + 0.2 * (there & released)
         steps += 0.4 * np.where(there, 1.0, 1.0 - np.tanh(away / predicates.NEAR_GOAL))
         return Verdicts(
             success=done,
@@ -167,7 +169,9 @@ class BesideJudge(Judge):
     def _carried(self) -> Mask:
         """Whether the surface carries the target, shape (worlds,)."""
         if self._floors is None:
-            return self._each(predicates.grounded)
+            row = predicates.OWNERS + self._target
+            touching = self.states.snapshot.touching
+            return np.asarray(touching[:, predicates.SUPPORT_ROW, row] | touching[:, predicates.FLOOR_ROW, row])
         return predicates.pairs_that(self.states.snapshot, self._floors, False)[:, 0]
 
     def _each(self, predicate: Callable[..., Any]) -> Any:

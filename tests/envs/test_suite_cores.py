@@ -17,7 +17,7 @@ KNOWN = [(kind, core) for kind, cores in CORES.items() for core in cores]
 
 
 def named(spec: str) -> list[str]:
-    """The kind of a task and the objects that it names; where those are rearranged to, or in which relation, is drawn with the scene."""
+    """The kind of a task and the objects that it names; points and relations are drawn with the scene."""
     if spec.startswith(("rearrange:", "beside:")):
         return spec.split(":")
     if spec.startswith("push:"):

@@ -222,6 +222,7 @@ def test_every_possible_task_can_be_written_down_and_read_again(breakfast):
         "chain",
         "rearrange",
         "push",
+        "beside",
         "carry",
         "handover",
     }
