@@ -20,15 +20,15 @@ from pat3d.envs.physics.state import States
 from pat3d.envs.tasks.beside import RELATIONS
 from pat3d.envs.tasks.beside_judge import Related
 from pat3d.envs.tasks.beside_spots import at_rest, spots
+from pat3d.envs.tasks.push import bench_at_rest
 from pat3d.envs.tasks.registry import parse_task
-from pat3d.errors import TaskError
 from pat3d.geometry.pose import Pose
 from pat3d.layout.lateral import Box, on_side
 from pat3d.layout.predicates import check_relations, relation_holds
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.scene.model import Relation
-from tests.envs.beside_scenes import BOARD, CUBE, on_a_board, on_a_table
+from tests.envs.beside_scenes import CUBE, on_a_board, on_a_table
 from tests.envs.own_arm import own_arm
 from tests.scenes import GAP, asset_of, placed, scene_of
 
@@ -145,9 +145,21 @@ def test_spots_are_on_the_surface_however_it_is_turned():
         corners = spot + 0.02 * np.array([[1, 1], [1, -1], [-1, 1], [-1, -1]])
         own = corners @ turn.rotation[:2, :2]
         assert (np.abs(own) <= [0.3, 0.09]).all()
-    # Across the board there is no room.
-    with pytest.raises(TaskError, match="edge of the surface"):
-        parse_task("beside:mug:left_of:board").check(scene_of(*scene.objects[1:2], placed("mug", BOARD, (0.6, 0, GAP))))
+
+
+def test_a_workbench_reaches_where_something_is_to_be_put(tmp_path_factory):
+    wide = asset_of(box(0.04, 0.3, 0.04))
+    scene = scene_of(placed("plate", asset_of(box(0.06, 0.06, 0.03)), (0, 0, GAP)), placed("rod", wide, (0.2, 0, GAP)))
+    task = parse_task("beside:rod:behind:plate")
+    task.check(scene)
+    needs = task.needs(scene)
+    bench = made(scene, task.spec, tmp_path_factory).placement.bench
+    assert bench is not None
+    assert (np.array(bench[0]) <= needs.room[0]).all()
+    assert (needs.room[1] <= np.array(bench[1])).all()
+    usual = bench_at_rest(scene, "rod")
+    assert usual is not None
+    assert needs.room[1][1] > usual[1][1]
 
 
 class Worlds(States):
