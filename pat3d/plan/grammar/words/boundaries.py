@@ -84,7 +84,7 @@ class Boundaries:
             return True
         if not words:
             # "one contains three pens", where nothing is called a contains.
-            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other", "another")
+            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other", "another", "more")
             placed = word in lexicon.VERBS | lexicon.PARTICIPLES and link_at(self._tokens, at + 1) > 0
             # "Inside that one lies a coin"
             placed = placed or (
