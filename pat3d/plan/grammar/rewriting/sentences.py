@@ -31,7 +31,8 @@ CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 _MORE = frozenset({"another", "other", "others", "also", "too", "more", "else", "still", "then"})
 """Words by which what there is is said of further things."""
 _MOVED = frozenset({"rolled", "fallen", "slid", "slipped", "dropped", "tumbled", "landed", "bounced", "jumped",
-    "climbed", "crept", "crawled", "hopped", "leapt", "flown"})  # fmt: skip
+    "climbed", "crept", "crawled", "hopped", "leapt", "flown", "spilled", "spilt", "escaped"})  # fmt: skip
+_FROM = (("out", "of"), ("from",), ("off",))
 _TO = {"into": "in", "onto": "on", "under": "under", "beneath": "under", "underneath": "under", "below": "under"}
 """Where something is that has moved there."""
 _LADEN = frozenset({
@@ -53,7 +54,8 @@ def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
     told = _conditions(brought_about(_labelled(parts)))
-    told = _come_to_rest([_wherever(each) for each in plainly_asked(told, nouns)])
+    told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(_wherever(each))]
+    told = _come_to_rest(told)
     told = one_for_each(_reordered(exceptions(told), nouns))
     return [sentence for sentence in told if len(sentence) > 1]
 
@@ -198,6 +200,54 @@ def _wherever(sentence: list[Token]) -> list[Token]:
     named = sentence[4 : at - (words[at - 1] == ",")]
     has = replace(sentence[at], text="has")
     return [replace(sentence[0], text="every"), *named, has, *sentence[at + 2 + (words[at + 2] == "also") :]]
+
+
+def _no_longer(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "there used to be a jug on the mat; now there is a cup" as "there is a cup on the mat".
+
+    So is "the mat used to hold a jug, but now it holds a cup" of the mat: the audit names what was there.
+    """
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        starts = (n for n in range(len(words) - 3) if n == 0 or words[n - 1] in (",", "but"))
+        now = next((n for n in starts if words[n] == "now"), -1)
+        first = now <= 0 or words[:now] == ["but"]
+        before = [] if now < 0 else sentence[:now] if not first else made[-1] if made else []
+        said = [token.text for token in before]
+        used = next((n for n in range(1, len(said) - 1) if said[n : n + 2] == ["used", "to"]), 0)
+        if not used and said[:2] not in (["there", "was"], ["there", "were"]):
+            made.append(sentence)
+            continue
+        if first:
+            made.pop()
+        there = list(sentence[now + 1 :])
+        if said[0] == "there":
+            end = next((n for n in range(3, len(said)) if before[n].mark), len(said))
+            place = next((n for n in range(4, end) if link_at(before, n) and said[n] not in ("of", "with")), end)
+            if there[-2].text in ("it", "them"):
+                # "Now there is a pear in it"
+                there[-2 - next((n for n in (3, 2, 1) if link_at(there, len(there) - 2 - n) == n), 0) : -1] = []
+            placed = any(link_at(there, n) and there[n].text not in ("of", "with") for n in range(2, len(there)))
+            there[-1:] = [*([] if placed else before[place:end]), there[-1]]
+        elif there[0].text in ("it", "they"):
+            there[:1] = before[:used]
+        made.append(there)
+    return made
+
+
+def _out_of_which(sentence: list[Token]) -> list[list[Token]]:
+    """Tell "a jug from which two peas have rolled" as "a jug. two peas have rolled off it."."""
+    words = [token.text for token in sentence]
+    for which in (n for n in range(2, len(words) - 4) if words[n] == "which"):
+        size = next((n for n in (2, 1) if tuple(words[which - n : which]) in _FROM), 0)
+        has = next((n for n in range(which, len(words) - 1) if sentence[n].mark or words[n] in ("has", "have")), 0)
+        if size and words[has] in ("has", "have") and words[has + 1] in _MOVED:
+            start = which - size - (words[which - size - 1] == ",")
+            off = [replace(sentence[which - size], text="off"), replace(sentence[which], text="it")]
+            return [[*sentence[:start], sentence[-1]],
+                    [*sentence[which + 1 : has + 2], *off, *sentence[has + 2 :]]]  # fmt: skip
+    return [sentence]
 
 
 def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:
