@@ -59,7 +59,6 @@ toss/throw/chuck in a/an/some/one/two/three/four/five/six = create 2
 take it/them out again = take 1 out
 serves/acts/doubles as a table/stand/base/pedestal/shelf/tray/plate/support/seat/platform/holder for = carries
 serving/acting/used as a table/stand/base/pedestal/shelf/tray/plate/support/seat/platform/holder for = carrying
-so that they/it sit/sits/stand/stands/lie/lies/rest/rests = so that 1 are
 atleast = at least
 atmost = at most
 with no = without
