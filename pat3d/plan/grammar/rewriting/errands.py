@@ -27,7 +27,7 @@ _AFTER = tuple(tuple(said.split()) for said in (
 _ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
                ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
 _REST = frozenset({"rest", "others"})
-_FILLING = frozenset({"fill", "load", "stock", "pack"})
+FILLING = frozenset({"fill", "load", "stock", "pack"})
 """Verbs of what something is put in or on."""
 _BACK_TO = {"on": "onto", "in": "into", "inside": "into"}
 _HAVING_TO = tuple(tuple(said.split()) for said in (
@@ -75,15 +75,18 @@ def _filled_from(tokens: list[Token]) -> list[Token]:
 def _filled_with(tokens: list[Token]) -> list[Token]:
     """`tokens` with "fill the bowl with the figs on the mat" as "move the figs on the mat into the bowl"."""
     words = [token.text for token in tokens]
-    end = _end(tokens, 0) if words[0] in _FILLING else 0
+    end = _end(tokens, 0) if words[0] in FILLING else 0
     with_at = words.index("with") if "with" in words[:end] else 0
-    led = words[0] in _FILLING and words[1] in lexicon.DETERMINERS and with_at > 2
-    if not led or words[with_at + 1] not in ("the", "these", "those", "all", "both") or "it" in words[end:]:
+    led = words[0] in FILLING and words[1] in lexicon.DETERMINERS and with_at > 2
+    known = words[with_at + 1] in ("the", "these", "those", "all", "both")
+    placed = any(link_at(tokens, n) for n in range(with_at + 2, end - 1) if words[n] not in ("of", "to"))
+    if not led or not (known or placed) or "it" in words[end:]:
         return tokens
     if {*words[with_at + 1 : end], *singulars(words[with_at + 2])} & lexicon.SUBSTANCES:
         return tokens
     move, into = replace(tokens[0], text="move"), replace(tokens[with_at], text="into")
-    return [move, *tokens[with_at + 1 : end], into, *tokens[1:with_at], *tokens[end:]]
+    moved = [one for each in tokens[with_at + 1 : end] for one in (tokens[1:with_at] if each.text == "it" else [each])]
+    return [move, *moved, into, *tokens[1:with_at], *tokens[end:]]
 
 
 def _commands(tokens: Sequence[Token], at: int) -> bool:
