@@ -42,6 +42,7 @@ _LADEN = frozenset({
 """What a table is when the things that are told of next stand on it."""
 
 
+_COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
 
@@ -295,26 +296,33 @@ def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:
 def _reordered(told: list[list[Token]], known: Nouns) -> list[list[Token]]:
     """`told` with "there are three plates" before the "every plate", or "the plates", of which it gives the number.
 
-    So is "there is a cup on the table" before "put the cup on the tray", which it tells the beginning of.
+    So are "there is a cup on the table" and "on the table are a cup and a jug" before "put the cup on the tray", which
+    they tell the beginning of.
     """
     made = list(told)
     for at, sentence in enumerate(made):
         words = [token.text for token in sentence]
-        follows_on = len(words) > 6 and {*words} & lexicon.PRONOUNS
         there = words[:2] in (["there", "are"], ["there", "is"], ["there's", "a"])
-        if not there or follows_on or {*words} & _MORE:
+        # "The tray has a cup and a jug on it"
+        own = words[-2:-1] == ["it"] and words[0] in lexicon.DETERMINERS
+        follows_on = (len(words) > 6 or not there) and {*words[: -2 if own else None]} & lexicon.PRONOUNS
+        scene = base_verb(words[0]) != words[0] and words[0] not in CONDITIONS and {*words} & FINITE
+        if not (there or scene) or follows_on or {*words} & _MORE:
             continue
         nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
         link = next((n for n in range(3, len(words)) if sentence[n].mark or link_at(sentence, n)), 3)
-        ones = (guess for word in words[2:link] for guess in (word, *singulars(word)))
+        led = range(2, link) if there else [n for n in range(1, len(words)) if {*words[max(n - 3, 0) : n]} & _COUNTING]
+        ones = (guess for n in led for guess in (words[n], *singulars(words[n])))
         told_later = {one for one in ones if known.match([one])} - lexicon.NUMBERS.keys()
-        told_later |= {word for word in words[2:link] if told_later & {*singulars(word)}}
+        told_later |= {words[n] for n in led if told_later & {*singulars(words[n])}}
         for before in range(at):
             before_it = [token.text for token in made[before]]
             named = [one for one, two in zip(before_it, before_it[1:], strict=False) if two in nouns]
             old = words[:2] in (["there", "are"], ["there's", "a"])
             old = old and bool({*named} & {"each", "every"} or {*named} == {"the"})
-            if old or (base_verb(before_it[0]) == before_it[0] and told_later & {*before_it}):
+            # "Sort the cups", and "the cup" of "put all but the cup in the box"
+            asks = base_verb(before_it[0]) == before_it[0] or (before_it[0] == "the" and not {*before_it} & FINITE)
+            if old or (asks and told_later & {guess for word in before_it for guess in (word, *singulars(word))}):
                 made.insert(before, made.pop(at))
                 break
     return made
