@@ -66,7 +66,7 @@ def _more_of_them(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         number, behind = numeral(token.text), words[min(at + 1, len(words) - 1)]
         # "One jar is on a shelf. Two are below it."
         start = max((n for n in begin if n < at), default=0)
-        if not number or words[start] not in ("a", "an", "one", "1"):
+        if not number or token.text == "both" or words[start] not in ("a", "an", "one", "1"):
             continue
         verb = behind in FINITE and number > 1 and words[at - 1] in _JOINTS | {"."}
         had = behind in ("with", "without") and (_led(words, at) or words[at - 1] == "between")

@@ -84,7 +84,10 @@ class Boundaries:
             return True
         if not words:
             # "one contains three pens", where nothing is called a contains.
-            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other", "another", "more")
+            before = self._tokens[at - 1].text if at else ""
+            headless = before in (*lexicon.NUMBERS, "other", "another") or (
+                before == "more" and not word.endswith("ing")
+            )
             placed = word in lexicon.VERBS | lexicon.PARTICIPLES and link_at(self._tokens, at + 1) > 0
             # "Inside that one lies a coin"
             placed = placed or (

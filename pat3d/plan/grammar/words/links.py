@@ -258,7 +258,7 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
             "one on top of another", "on top of one another", "one atop the other", "one atop another", "stacked up",
             "stacked", "piled", "piled up", "in a stack", "in a pile", "in a tower", "in a column", "into a stack",
             "into a tower", "into a pile", "in one stack", "on top of one other", "one above the other",
-            "on one another", "nested", *(f"nested {within} {other}" for within in ("in", "inside", "within")
+            "on one another", *(f"nested {within} {other}" for within in ("in", "inside", "within")
                                           for other in ("each other", "one another")),
             "nested one inside the other", "nested one in the other",
         ),
