@@ -227,7 +227,8 @@ def _set_off_colours(tokens: list[Token], nouns: Nouns) -> list[Token]:
         while end < len(tokens) and (words[end] in (",", "and") or is_colour_word(words[end])):
             end += 1
         listed, (name, _) = items_of(tokens[at + 1 : end]), kind_at(words, at, nouns)
-        count = next((numeral(word) for word in words[start_of(words, name) : name] if numeral(word) > 1), 0)
+        lead = words[start_of(words, name) : name]
+        count = next((numeral(word) for word in lead if numeral(word) > 1 and not {*lead} & _MANY_COLOURED), 0)
         if (words[end - 1] == "," or words[end] == ".") and len(listed) == count:
             comma = replace(tokens[at], text=",")
             colours = [one for item in listed for one in (item[0], comma)][:-1]
