@@ -27,9 +27,7 @@ _TOWERING = frozenset({"towers", "looms"})
 _POSING = _TOWERING | {"glows", "glow", "shines", "shine", "gleams", "gleam", "flickers", "flicker", "burns",
     "glistens", "sparkles"}  # fmt: skip
 """Verbs of how something looks where it stands."""
-_CASTING = frozenset({"casts", "cast", "casting", "throws", "throwing", "sheds", "shedding"})
-_SHINING = _CASTING | {"shines", "shine", "shining"}
-_LIGHT = frozenset({"light", "beam", "glow"})
+_SHINING = {"shines": ("points", "at"), "shine": ("are", "pointing", "at"), "shining": ("pointing", "at")}
 _UPON = frozenset({"on", "onto", "upon", "at", "over"})
 """Words before what a lamp lights."""
 _NEAR = frozenset({"behind", "beside", "under", "on", "near", "between", "over", "above", "by", "beneath"})
@@ -57,22 +55,13 @@ def _own(tokens: Sequence[Token]) -> list[Token]:
 def _shining(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a lamp shines on a book" as "points at a book": no lamp stands there, as it may on a desk."""
     words = [token.text for token in tokens]
-    for at in range(len(words) - 3, 0, -1):
-        verb = words[at] in _SHINING
-        if verb and words[at] in _CASTING:
-            light = next((n for n in range(at + 1, min(at + 5, len(words))) if words[n] in _LIGHT), 0)
-            verb = light > 0 and words[at + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES
-        else:
-            light = at
-        upon = light + 1 + (words[min(light + 1, len(words) - 1)] == "down")
-        if not verb or upon > len(words) - 3 or words[upon] not in _UPON:
-            continue
+    for at in (n for n in range(len(words) - 3, 0, -1) if words[n] in _SHINING):
+        upon = at + 1 + (words[at + 1] == "down")
         named = next((n for n in range(upon + 1, len(words)) if tokens[n].mark or nouns.match([words[n]])), upon)
-        lit, it = nouns.match([words[named]]), words[upon + 1] in ("it", "them")
-        if it or (lit is not None and not (words[upon] == "on" and nouns.of_class(lit.noun, lexicon.LEVEL))):
-            ing, single = words[at].endswith("ing"), words[at].endswith("s")
-            said = ("points", "at") if single else ("pointing", "at") if ing else ("are", "pointing", "at")
-            points = [replace(tokens[at], text=word) for word in said]
+        lit = nouns.match([words[named]])
+        desk = lit is None or (words[upon] == "on" and nouns.of_class(lit.noun, lexicon.LEVEL))
+        if words[upon] in _UPON and (not desk or words[upon + 1] in ("it", "them")):
+            points = [replace(tokens[at], text=word) for word in _SHINING[words[at]]]
             return _shining([*tokens[:at], *points, *tokens[upon + 1 :]], nouns)
     return list(tokens)
 
