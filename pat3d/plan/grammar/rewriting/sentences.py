@@ -42,6 +42,7 @@ _LADEN = frozenset({
 """What a table is when the things that are told of next stand on it."""
 
 
+_HAD = ("of", "with")
 _COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
@@ -211,29 +212,24 @@ def _no_longer(told: list[list[Token]]) -> list[list[Token]]:
     made: list[list[Token]] = []
     for sentence in told:
         words = [token.text for token in sentence]
-        starts = (n for n in range(len(words) - 3) if n == 0 or words[n - 1] in (",", "but"))
-        now = next((n for n in starts if words[n] == "now"), -1)
-        first = now <= 0 or words[:now] == ["but"]
-        before = [] if now < 0 else sentence[:now] if not first else made[-1] if made else []
+        now = next((n for n, word in enumerate(words[:-3]) if word == "now" and words[n - 1] in (".", ",", "but")), -1)
+        before = sentence[:now] if now > 1 else made[-1] if made and now >= 0 else []
         said = [token.text for token in before]
         used = next((n for n in range(1, len(said) - 1) if said[n : n + 2] == ["used", "to"]), 0)
         if not used and said[:2] not in (["there", "was"], ["there", "were"]):
             made.append(sentence)
             continue
-        if first:
-            made.pop()
         there = list(sentence[now + 1 :])
         if said[0] == "there":
-            end = next((n for n in range(3, len(said)) if before[n].mark), len(said))
-            place = next((n for n in range(4, end) if link_at(before, n) and said[n] not in ("of", "with")), end)
-            if there[-2].text in ("it", "them"):
-                # "Now there is a pear in it"
-                there[-2 - next((n for n in (3, 2, 1) if link_at(there, len(there) - 2 - n) == n), 0) : -1] = []
-            placed = any(link_at(there, n) and there[n].text not in ("of", "with") for n in range(2, len(there)))
-            there[-1:] = [*([] if placed else before[place:end]), there[-1]]
+            # "Now there is a pear in it"
+            end = next((n for n in range(2, len(there)) if link_at(there, n) and there[n].text not in _HAD), -1)
+            place = next((n for n in range(4, len(said)) if link_at(before, n) and said[n] not in _HAD), len(said))
+            stop = next((n for n in range(place, len(said)) if before[n].mark), len(said))
+            if end < 0 or there[-2].text in ("it", "them"):
+                there[end:-1] = before[place:stop]
         elif there[0].text in ("it", "they"):
             there[:1] = before[:used]
-        made.append(there)
+        made[-1 if now <= 1 else len(made) :] = [there]
     return made
 
 
