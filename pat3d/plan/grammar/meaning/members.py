@@ -136,14 +136,11 @@ class Members(ByPlace):
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             before = [group.items for group in reversed(world.groups) if len(group.items) == 1 and not group.replaced]
-            link = self._chunks[at - 1].link if at else None
+            link, named = self._chunks[at - 1].link if at else None, single or before
             # "A crate is on a pallet. Inside that is a jar."
-            hollow = [
-                items for items in single or before
-                if link is not None and link.kind == "in" and (
-                    world.containment(items[0]) == "in" or world.is_a(items[0], lexicon.HOLDERS))
-            ]  # fmt: skip
-            return next(iter(hollow or single or before), [])
+            inside = link is not None and link.kind == "in"
+            hollow = [one for one in named if inside and world.is_a(one[0], lexicon.HOLLOW, lexicon.HOLDERS)]
+            return next(iter(hollow or named), [])
         together = words == NO_MODIFIERS and not any(head < at for head in self.known)
         if together and phrase.definite and phrase.count == len(world.together) > 1:
             # "A cup and a jar are on the desk. Put both in the box."

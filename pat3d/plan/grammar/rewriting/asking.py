@@ -312,10 +312,7 @@ def _let(sentence: list[Token]) -> list[Token]:
 
 
 def _so_that(sentence: list[Token]) -> list[Token]:
-    """Read "place the book so that it leans against the vase" as "lean the book against the vase".
-
-    Where it only stands or lies there, "place" is enough.
-    """
+    """Read "place the book so that it leans against the vase" as "lean it against the vase", "lies" as "place"."""
     words = [token.text for token in sentence]
     at = next((n for n in range(3, len(words) - 4) if words[n] in ("so", "such")), 0)
     it = at + 1 + (words[at + 1] == "that") if at else 0

@@ -30,8 +30,6 @@ _WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "
 _WITHOUT = (("free", "of"), ("free", "from"), ("devoid", "of"), ("void", "of"), ("bare", "of"), ("bereft", "of"),
             ("missing",), ("lacking",), ("lacks",), ("lack",), ("minus",), ("sans",), ("empty", "of"), ("out", "of"),
             ("low", "on"), ("short", "of"))  # fmt: skip
-_RUN_OUT = frozenset({"out", "low", "short"})
-"""Beginnings of those behind which a bare name stands: "out of paper", and no "out of the box"."""
 _ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
 _OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
@@ -102,7 +100,8 @@ def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         which = which if which < 2 or words[at - 1] in lexicon.COPULAS else 0
         if not size or not (known or which or words[at - 1] in (",", "and", "but")):
             continue
-        start, run_out = at + size, words[at] in _RUN_OUT
+        # "Out of paper", and no "out of the box"
+        start, run_out = at + size, words[at] in ("out", "low", "short")
         if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in _LEADS | lexicon.PRONOUNS):
             continue
         behind = next(n for n in range(start, len(words)) if tokens[n].mark or link_at(tokens, n))

@@ -215,10 +215,7 @@ def joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
 
 
 def _set_off_colours(tokens: list[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "three mugs, red, green and blue, stand" as "three red, green and blue mugs stand".
-
-    So is "three tall mugs: red, green and blue, in a box".
-    """
+    """`tokens` with "three mugs, red, green and blue, stand" (or ":") as "three red, green and blue mugs stand"."""
     words = [token.text for token in tokens]
     for at in range(2, len(tokens) - 3):
         if words[at] not in (",", ":") or not is_colour_word(words[at + 1]):

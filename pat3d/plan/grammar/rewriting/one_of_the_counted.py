@@ -1,7 +1,4 @@
-"""One of what was counted before, and more of what was not: "two jars, one jar holds a fig" tells of one of the jars.
-
-"One jar is on a shelf, two are below it" tells of two more.
-"""
+"""One of what was counted before, or more: "two jars, one jar holds a fig" tells of one of the jars."""
 
 from __future__ import annotations
 

@@ -220,10 +220,7 @@ def become(tokens: Sequence[Token]) -> list[Token]:
 
 
 def one_of_two(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "nuts into one box and bolts into the other" as "... one of the two boxes ... the other box".
-
-    "From one bowl to the other" is "from one bowl to the other bowl".
-    """
+    """`tokens` with "nuts into one box and bolts into the other" as "... one of the two boxes ... the other box"."""
     words = [token.text for token in tokens]
     for at in range(1, len(words) - 4):
         if words[at] != "one" or words[at - 1] not in _INTO | {"from"}:
@@ -241,6 +238,7 @@ def one_of_two(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if not (tokens[behind].mark or words[behind] in ("and", "while")):
             continue
         if off:
+            # "From one bowl to the other"
             named = [replace(tokens[other + 1], text=each.text) for each in tokens[at + 1 : end + 1]]
             return [*tokens[: other + 2], *named, *tokens[behind:]]
         some = [replace(tokens[at], text=word) for word in ("one", "of", "the", "two")]

@@ -85,9 +85,8 @@ class Boundaries:
         if not words:
             # "one contains three pens", where nothing is called a contains.
             before = self._tokens[at - 1].text if at else ""
-            headless = before in (*lexicon.NUMBERS, "other", "another") or (
-                before == "more" and not word.endswith("ing")
-            )
+            more = before == "more" and not word.endswith("ing")
+            headless = more or before in (*lexicon.NUMBERS, "other", "another")
             placed = word in lexicon.VERBS | lexicon.PARTICIPLES and link_at(self._tokens, at + 1) > 0
             # "Inside that one lies a coin"
             placed = placed or (
