@@ -95,7 +95,6 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            # "Take the towel off the basket"
             lid = world.is_a(children[0], lexicon.ON_RIMS) or (
                 link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",)))  # fmt: skip
             shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
