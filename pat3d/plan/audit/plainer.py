@@ -20,6 +20,8 @@ _PLAINER = tuple((re.compile(said), plain) for said, plain in (
     (rf"\b{_SIDE} by {_SIDE}(?= grid\b)|(?<=\bgrid of ){_SIDE} by {_SIDE} ", ""),
     (r"\b((?:night ?|tv |coat |cake |hat)stand)\b(.*)\bthe stand\b", r"\1\2the \1"),
     (r"\bsuch that\b", "so that"),
+    (r"\b(?:equal|even|neat|tidy|separate|identical) (?=(?:stacks|piles|towers|rows)\b)", ""),
+    (r"\bthe (?:outer (?:ones|two|pair)|two outer ones)(?= (?:are|have|hold|stand)\b)", "the first and last"),
     (r"\b(built|made|tower|stack|pile|row|pyramid) out of\b", r"\1 of"),
     (r"(?:\ban? )?\b(?!and |with |in |on |of )([a-z]{3,}) [(]?x(\d{1,2})\b[)]?", r"\2 \1"),
     (r"\bx(\d{1,2})\b", r"\1"),

@@ -22,6 +22,8 @@ _GARNISHED = ("cake", "cupcake", "pie", "pizza", "pancake", "waffle", "tree", "b
 """What is decorated by what lies or hangs on it, besides furniture."""
 _LINED = frozenset({"row", "rows", "line", "lined", "side"})
 """Words of what stands in a line."""
+_EVEN = frozenset({"equal", "even", "neat", "tidy", "separate", "identical"})
+"""Words of how rows and stacks are, as these are made."""
 _BARE_PLACES = frozenset({"inside", "nearby", "beside", "behind", "in front", "on top", "near by", "close by",
     "beneath", "between", "in between",
                           "underneath", "below", "above", "next to", "under", "alongside"})  # fmt: skip
@@ -72,6 +74,8 @@ class RelationWords(Cursor):
             link_at(self._tokens, self._at + 1) or self._tokens[self._at + 1].mark
         )  # fmt: skip
         if fronted or (after and not noun_follows):
+            if key[0] == "nested":
+                self._made.unread.append(" ".join(key))
             self._add("form", size, text=EACH_OTHER[key])
             return True
         return False
@@ -107,7 +111,8 @@ class RelationWords(Cursor):
             apart = {"far": "far_from", "gaze": "facing"}.get(link.manner, link.says or "")
             if link.kind != "next_to" and not apart:
                 self._made.unread.append(" ".join(self._words(size + 2)))
-            self._add("form", size + 2, text=apart or "beside", link=link)
+            # "Two bowls inside each other" are as good as stacked.
+            self._add("form", size + 2, text="stack" if link.kind == "in" else apart or "beside", link=link)
             return True
         if link.manner == "of" and (self._last is None or self._last.kind != "noun"):
             return False
@@ -192,17 +197,19 @@ class RelationWords(Cursor):
         return True
 
     def _several(self) -> bool:
-        """Read "in two rows", "in three stacks of four"."""
-        preposition, number, what = (*self._words(3), "", "")[:3]
+        """Read "in two rows", "in three equal stacks of four"."""
+        preposition, number, what, behind = (*self._words(4), "", "", "")[:4]
+        even = what in _EVEN
+        what = behind if even else what
         count = lexicon.NUMBERS.get(number, int(number[:3]) if number.isdecimal() and number.isascii() else 0)
         kinds = {"rows": lexicon.ROWS, "stacks": lexicon.STACK_NOUNS}
         kind = next((kind for kind, nouns in kinds.items() if nouns & {what, *singulars(what)}), None)
         if preposition not in ("in", "into", "as") or count < 1 or kind is None:
             return False
-        tail = [token.text for token in self._tokens[self._at + 3 : self._at + 5]]
+        tail = [token.text for token in self._tokens[self._at + 3 + even : self._at + 5 + even]]
         of_each = len(tail) == 2 and tail[0] == "of" and (tail[1] in lexicon.NUMBERS or tail[1].isdecimal())
         each = (lexicon.NUMBERS.get(tail[1]) or int(tail[1][:3])) if of_each else 0
-        self._add("form", 5 if of_each else 3, text=kind, size=count, each=each)
+        self._add("form", 3 + even + 2 * of_each, text=kind, size=count, each=each)
         return True
 
     def _of_owner(self) -> bool:

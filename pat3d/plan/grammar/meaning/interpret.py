@@ -286,8 +286,9 @@ class Interpreter(Holding):
         group = children[0].group
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
         if loose and link.kind in SUPPORT_KINDS and all(child.group is group for child in children):
-            # "Two pots with plants in them": as many for each.
-            recount(self._world, group, -(-len(children) // len(parents)) * len(parents))
+            # "Two pots with plants in them": as many for each; of what closes a pot one.
+            most = len(parents) if self._world.is_a(children[0], lexicon.ON_RIMS) else len(children)
+            recount(self._world, group, -(-most // len(parents)) * len(parents))
             children = list(group.items)
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.

@@ -131,12 +131,16 @@ class Members(ByPlace):
         words, where = phrase.modifiers, position(phrase)
         groups = [*self._plural_before(at), *([world.subject[0].group] if world.subject else [])]
         groups += [group for group in reversed(world.groups) if not group.replaced]
-        if phrase.words.lower() == "that one":
+        if phrase.words.lower() in ("that one", "that", "this"):
             single = [
                 items for head, items in sorted(self.known.items(), reverse=True) if head < at and len(items) == 1
             ]
             before = [group.items for group in reversed(world.groups) if len(group.items) == 1 and not group.replaced]
-            return next(iter(single or before), [])
+            link, named = self._chunks[at - 1].link if at else None, single or before
+            # "A crate is on a pallet. Inside that is a jar."
+            inside = link is not None and link.kind == "in"
+            hollow = [one for one in named if inside and world.is_a(one[0], lexicon.HOLLOW, lexicon.HOLDERS)]
+            return next(iter(hollow or named), [])
         together = words == NO_MODIFIERS and not any(head < at for head in self.known)
         if together and phrase.definite and phrase.count == len(world.together) > 1:
             # "A cup and a jar are on the desk. Put both in the box."

@@ -95,7 +95,8 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            lid = world.is_a(children[0], lexicon.ON_RIMS)
+            lid = world.is_a(children[0], lexicon.ON_RIMS) or (
+                link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",)))  # fmt: skip
             shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
             if not lid and (shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")

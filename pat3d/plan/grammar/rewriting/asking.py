@@ -53,7 +53,7 @@ _BUT = (("except", "for"), ("apart", "from"), ("other", "than"), ("but", "for"),
         ("except",), ("but",), ("save",), ("excluding",))  # fmt: skip
 _LEAVING = frozenset({"from", "off", "out", "of", "with"})
 """Words from where something is, or with what."""
-_STANDING = frozenset({"lean", "lie", "hang", "rest", "sit"})
+_HELD = frozenset({"lean", "hang"})
 
 
 def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
@@ -312,17 +312,19 @@ def _let(sentence: list[Token]) -> list[Token]:
 
 
 def _so_that(sentence: list[Token]) -> list[Token]:
-    """Read "place the book so that it leans against the vase" as "lean the book against the vase"."""
+    """Read "place the book so that it leans against the vase" as "lean it against the vase", "lies" as "place"."""
     words = [token.text for token in sentence]
-    at = next((n for n in range(3, len(words) - 4) if words[n] == "so"), 0)
+    at = next((n for n in range(3, len(words) - 4) if words[n] in ("so", "such")), 0)
     it = at + 1 + (words[at + 1] == "that") if at else 0
     if not at or base_verb(words[0]) != words[0] or words[1] not in _LEADS or words[it] not in ("it", "they"):
         return sentence
     base = base_verb(words[it + 1])
     plain = not any(token.mark or link_at(sentence, n) for n, token in enumerate(sentence[:at]))
-    if base not in _STANDING or not plain or not link_at(sentence, it + 2):
+    if not link_at(sentence, it + 2) or not ((base in _HELD and plain) or words[it + 1] in lexicon.STANDING):
         return sentence
-    return [replace(sentence[0], text=base), *sentence[1:at], *sentence[it + 2 :]]
+    verb = replace(sentence[0], text=base) if base in _HELD else sentence[0]
+    comma = [] if plain else [replace(sentence[at], text=",", mark=True)]
+    return [verb, *sentence[1:at], *comma, *sentence[it + 2 :]]
 
 
 def _from_stack(sentence: list[Token], *, piled: bool) -> list[list[Token]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.errands import FILLING
 from pat3d.plan.grammar.rewriting.instructions import VERBS
 from pat3d.plan.grammar.rewriting.wielded import wielded
 from pat3d.plan.grammar.words import lexicon
@@ -98,7 +99,8 @@ def _carrying(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
             if sentence[n].mark or link_at(sentence, n) or words[n] in _OTHERWISE | lexicon.DIRECTIONS
         )
         end = next(ends, 0)
-        if not end:
+        if not end or (words[at] in FILLING and words[end] not in ("to", "into", "onto")):
+            # "Fill the bowl with the figs on the mat": no bowl with figs is there.
             continue
         owner, thing = _name(words, had, nouns), _name(words[had + 1 :], end - had - 1, nouns)
         told = 2 * (words[end : end + 2] in _IN_IT)

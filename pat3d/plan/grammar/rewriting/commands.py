@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.rewriting.outcomes import TAKING, brought, closed, put_back, together
+from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back, together
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -45,7 +45,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _parted(_given(_swapped(brought(put_back(together(closed(_in_full(_kept(tokens)))))))))
+    told = _parted(_given(_swapped(put_back(together(closed(_in_full(_kept(tokens))))))))
     return _handed(_fronted(_place_first(_sideways(_ordered(_told_once(_lined_up(_built(told))))))))
 
 

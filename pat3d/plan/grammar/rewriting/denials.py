@@ -28,7 +28,8 @@ _UNABLE = tuple(tuple(said.split()) for said in (
 _WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "tick", "ticks", "ring", "rings"})
 """What a thing does wherever it stands: what follows is where it does not."""
 _WITHOUT = (("free", "of"), ("free", "from"), ("devoid", "of"), ("void", "of"), ("bare", "of"), ("bereft", "of"),
-            ("missing",), ("lacking",), ("lacks",), ("lack",), ("minus",), ("sans",))  # fmt: skip
+            ("missing",), ("lacking",), ("lacks",), ("lack",), ("minus",), ("sans",), ("empty", "of"), ("out", "of"),
+            ("low", "on"), ("short", "of"))  # fmt: skip
 _ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
 _OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
@@ -99,10 +100,13 @@ def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         which = which if which < 2 or words[at - 1] in lexicon.COPULAS else 0
         if not size or not (known or which or words[at - 1] in (",", "and", "but")):
             continue
-        start = at + size
+        # "Out of paper", and no "out of the box"
+        start, run_out = at + size, words[at] in ("out", "low", "short")
+        if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in _LEADS | lexicon.PRONOUNS):
+            continue
         behind = next(n for n in range(start, len(words)) if tokens[n].mark or link_at(tokens, n))
         part = {words[behind - 1], *singulars(words[behind - 1])} & (lexicon.PARTS | lexicon.PORTIONS)
-        if behind > start and (part or nouns.longest(words[start:behind]) is not None):
+        if behind > start and (part or run_out or nouns.longest(words[start:behind]) is not None):
             without = replace(tokens[at], text="without", end=tokens[start - 1].end)
             said = words[at] in ("lacks", "lack") or words[at - 1] in lexicon.COPULAS
             return [*tokens[: at - which], without, *(_joined_by_or(tokens[start:]) if said else tokens[start:])], []

@@ -37,7 +37,7 @@ Item = list[Token]
 
 def enumerated(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with what is listed in the place of what was counted."""
-    told = _set_off_colours(_apposed(by_share(text, tokens, nouns), nouns))
+    told = _set_off_colours(_apposed(by_share(text, tokens, nouns), nouns), nouns)
     tokens = _all_alike(_with_heads(told, nouns))
     return _oranges(_kinds(_in_brackets(text, tokens, nouns), nouns), nouns)
 
@@ -214,20 +214,22 @@ def joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
     return made
 
 
-def _set_off_colours(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "three mugs, red, green and blue, stand" as "three red, green and blue mugs stand"."""
+def _set_off_colours(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "three mugs, red, green and blue, stand" (or ":") as "three red, green and blue mugs stand"."""
     words = [token.text for token in tokens]
     for at in range(2, len(tokens) - 3):
-        if words[at] != "," or not is_colour_word(words[at + 1]) or numeral(words[at - 2]) < 2:
+        if words[at] not in (",", ":") or not is_colour_word(words[at + 1]):
             continue
         end = at + 1
         while end < len(tokens) and (words[end] in (",", "and") or is_colour_word(words[end])):
             end += 1
-        listed = items_of(tokens[at + 1 : end])
-        closed = words[end - 1] == "," or words[end] == "."
-        if closed and len(listed) == numeral(words[at - 2]):
-            colours = [one for item in listed for one in (item[0], tokens[at])][:-1]
-            return [*tokens[: at - 1], *colours, tokens[at - 1], *tokens[end:]]
+        listed, (name, _) = items_of(tokens[at + 1 : end]), kind_at(words, at, nouns)
+        lead = words[start_of(words, name) : name]
+        count = next((numeral(word) for word in lead if numeral(word) > 1 and not {*lead} & _MANY_COLOURED), 0)
+        if (words[end - 1] == "," or words[end] == ".") and len(listed) == count:
+            comma = replace(tokens[at], text=",")
+            colours = [one for item in listed for one in (item[0], comma)][:-1]
+            return [*tokens[:name], *colours, *tokens[name:at], *tokens[end:]]
     return tokens
 
 

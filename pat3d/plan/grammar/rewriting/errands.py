@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.outcomes import put_back
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
+from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb
@@ -27,9 +29,8 @@ _AFTER = tuple(tuple(said.split()) for said in (
 _ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
                ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
 _REST = frozenset({"rest", "others"})
-_FILLING = frozenset({"fill", "load", "stock", "pack"})
+FILLING = frozenset({"fill", "load", "stock", "pack"})
 """Verbs of what something is put in or on."""
-_BACK_TO = {"on": "onto", "in": "into", "inside": "into"}
 _HAVING_TO = tuple(tuple(said.split()) for said in (
     "should be", "must be", "needs to be", "need to be", "has to be", "have to be", "is to be", "are to be", "shall be",
     "ought to be", "be",
@@ -45,7 +46,7 @@ def errands(tokens: Sequence[Token]) -> list[Token]:
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _the_rest(_once_again(_added(_carried(_emptied(_put_back(_one_by_one(made)))))))
+    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE)))))))
 
 
 def _filled_from(tokens: list[Token]) -> list[Token]:
@@ -75,15 +76,18 @@ def _filled_from(tokens: list[Token]) -> list[Token]:
 def _filled_with(tokens: list[Token]) -> list[Token]:
     """`tokens` with "fill the bowl with the figs on the mat" as "move the figs on the mat into the bowl"."""
     words = [token.text for token in tokens]
-    end = _end(tokens, 0) if words[0] in _FILLING else 0
+    end = _end(tokens, 0) if words[0] in FILLING else 0
     with_at = words.index("with") if "with" in words[:end] else 0
-    led = words[0] in _FILLING and words[1] in lexicon.DETERMINERS and with_at > 2
-    if not led or words[with_at + 1] not in ("the", "these", "those", "all", "both") or "it" in words[end:]:
+    led = words[0] in FILLING and words[1] in lexicon.DETERMINERS and with_at > 2
+    placed = any(link_at(tokens, n) for n in range(with_at + 2, end - 1) if words[n] not in ("of", "to"))
+    known = led and words[with_at + 1] in ("the", "these", "those", "all", "both")
+    if not led or not (known or placed) or "it" in words[end:]:
         return tokens
     if {*words[with_at + 1 : end], *singulars(words[with_at + 2])} & lexicon.SUBSTANCES:
         return tokens
     move, into = replace(tokens[0], text="move"), replace(tokens[with_at], text="into")
-    return [move, *tokens[with_at + 1 : end], into, *tokens[1:with_at], *tokens[end:]]
+    moved = [one for each in tokens[with_at + 1 : end] for one in (tokens[1:with_at] if each.text == "it" else [each])]
+    return [move, *moved, into, *tokens[1:with_at], *tokens[end:]]
 
 
 def _commands(tokens: Sequence[Token], at: int) -> bool:
@@ -104,32 +108,6 @@ def _end(tokens: Sequence[Token], at: int) -> int:
         if tokens[n].mark or (tokens[n].text in ("and", "then") and (
             base_verb(tokens[n + 1].text) == tokens[n + 1].text or tokens[n + 1].text in _PUTTING | {"then"}))
     )  # fmt: skip
-
-
-def _one_by_one(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` without "one by one": the environment does one thing at a time."""
-    made: list[Token] = []
-    at = 0
-    while at < len(tokens):
-        words = tuple(token.text for token in tokens[at : at + 4])
-        size = next((len(said) for said in _ONE_BY_ONE if words[: len(said)] == said), 0)
-        if not size:
-            made.append(tokens[at])
-        at += size or 1
-    return made
-
-
-def _put_back(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the mug back on the shelf" as "put the mug onto the shelf"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        back = at > 1 and tokens[at - 1].text == "back" and tokens[at - 2].text not in lexicon.DETERMINERS
-        back = back and token.text in ("on", "in", "inside", "under", "next", "where") and not link_at(tokens, at - 1)
-        if back:
-            made.pop()
-        onto = _BACK_TO.get(token.text) if back and not tokens[at + 1].mark else None
-        made.append(replace(token, text=onto) if onto else token)
-    return made
 
 
 def _carried(tokens: Sequence[Token]) -> list[Token]:

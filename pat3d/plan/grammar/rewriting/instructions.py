@@ -30,7 +30,8 @@ VERBS: dict[str, Manner] = {
     **dict.fromkeys(("put", "place", "set", "lay", "arrange", "hang", "lean", "position", "stand", "pile", "leave",
                      "balance", "scatter", "spread", "stick", "keep", "distribute", "rest", "center", "centre",
                      "line", "sit", "fill", "slap", "plop", "pop", "prop", "tuck", "slot", "wedge", "nestle", "mount",
-                     "drape", "wrap", "tie", "fit", "nest", "fasten", "strap", "hook", "dip", "submerge"), "make"),
+                     "drape", "wrap", "tie", "fit", "nest", "fasten", "strap", "hook", "dip", "submerge",
+                     "serve"), "make"),
     **dict.fromkeys(("move", "bring", "transport", "transfer", "carry", "drop", "insert", "throw", "toss", "pack",
                      "store", "return", "deliver", "relocate", "hand", "pass", "organize", "organise", "push", "slide",
                      "drag", "add", "collect", "clean", "plate", "load", "deposit", "sweep", "nudge", "shove",
@@ -43,7 +44,7 @@ VERBS: dict[str, Manner] = {
     **dict.fromkeys(("empty", "unload"), "unload"),
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
-                     "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "serve", "shake", "stir", "plug",
+                     "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "shake", "stir", "plug",
                      "unplug", "unstack", "align", "assemble", "navigate", "walk", "cross", "reach", "swap",
                      "scoop", "touch",
                      "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange",
@@ -304,9 +305,9 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         if opening and not at and (unknown or _is_nameless(tokens, nouns)):
             return at if follows else None
         return at if unknown and follows and (not opening or tokens[at].number == 1) else None
-    follower = tokens[at + 1].text
-    if follower in ("of", "full", "with", "filled"):
-        # "Stack of books", "plate full of carrots"
+    follower, going = tokens[at + 1].text, VERBS[base] == "other" and nouns.match([word]) is None
+    if follower in ("of", "full", "with", "filled") and (opening or follower != "with" or not going):
+        # "Stack of books", "plate full of carrots", and not "... and stir with the spoon"
         return None
     leads = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.PRONOUNS | {"both", "either"}
     if follower in leads or follower.isdecimal() or (word == "avoid" and follower in ("anything", "everything")):
@@ -326,7 +327,6 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
     if base in _CERTAIN and not tokens[at + 1].mark:
         return at
-    going = VERBS[base] == "other" and nouns.match([word]) is None
     if going and (link_at(tokens, at + 1) or (tokens[at + 1].mark and not opening)) and (at or not tokens[at + 1].mark):
         # "Navigate to the table, ...", "reach into the box", "... and stir"
         return at if not opening or tokens[at].number == 1 or actor else None

@@ -1,4 +1,4 @@
-"""One of what was counted before: "two jars, one jar holds a fig" tells of one of the jars."""
+"""One of what was counted before, or more: "two jars, one jar holds a fig" tells of one of the jars."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from dataclasses import replace
 from pat3d.plan.english import plural
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _JOINTS = frozenset({":", ";", ",", "-", "and", "while", "where"})
@@ -29,7 +31,7 @@ def of_the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     So is "a fig in one jar", also in a later sentence; "another of the jars" is "another".
     """
-    made = list(tokens)
+    made = _more_of_them(tokens, nouns)
     at = 0
     while at < len(made) - 2:
         at += 1
@@ -45,6 +47,29 @@ def of_the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if (_led(words, at) and _counts(words[:at], words[at + 1 : end - 1], several)) or _told_of(words, at, end):
             of_those = [replace(made[at], text=text) for text in ("of", "the")]
             made[at + 1 : end] = [*of_those, *made[at + 1 : end - 1], replace(name, text=several)]
+    return made
+
+
+def _more_of_them(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "one jar is on a shelf, two are below it" as "two more are below it".
+
+    So is "a jar stands behind two with lids" as "behind two more with lids", and "one with a lid" as "another one".
+    """
+    made = list[Token]()
+    words = [token.text for token in tokens]
+    begin = {0, *(n + 1 for n, word in enumerate(words[:-1]) if word == ".")}
+    for at, token in enumerate(tokens):
+        made.append(token)
+        number, behind = numeral(token.text), words[min(at + 1, len(words) - 1)]
+        # "One jar is on a shelf. Two are below it."
+        start = max((n for n in begin if n < at), default=0)
+        if not number or token.text == "both" or words[start] not in ("a", "an", "one", "1"):
+            continue
+        verb = behind in FINITE and number > 1 and words[at - 1] in _JOINTS | {"."}
+        had = behind in ("with", "without") and (_led(words, at) or words[at - 1] == "between")
+        end = _name_end(tokens, start + 1, nouns) if (verb or had) and at > start + 2 else 0
+        if end and ((verb and words[end] in FINITE) or had) and plural(words[end - 1]) not in words[:at]:
+            made.insert(len(made) - (number == 1), replace(token, text="more" if number > 1 else "another"))
     return made
 
 

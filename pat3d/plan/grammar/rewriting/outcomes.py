@@ -8,7 +8,6 @@ from dataclasses import replace
 from pat3d.plan.grammar.words import lexicon, postures
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.links import LINKS, Link
 from pat3d.plan.grammar.words.measures import is_measure
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -38,7 +37,7 @@ def put_back(tokens: Sequence[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         back = token.text == "back" and any(each.text in _PUTTING for each in made) and not link_at(tokens, at)
         behind = back and made[-1].text not in (*lexicon.DETERMINERS, *lexicon.POSSESSIVES, "in", "at", "on")
-        if behind and (link_at(tokens, at + 1) or tokens[at + 1].mark):
+        if behind and (link_at(tokens, at + 1) or tokens[at + 1].mark or tokens[at + 1].text == "where"):
             dropped = True
             continue
         plain = dropped and token.text in ("on", "in") and link_at(tokens, at) == 1
@@ -75,28 +74,6 @@ def closed(tokens: Sequence[Token]) -> list[Token]:
             rest[again : again + bool(again)] = thing if again else []
             return [*tokens[:at], put, *tokens[joint + 1 : end], upon, *thing, *rest]
     return list(tokens)
-
-
-def brought(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "take the egg out of the pot and onto the plate" as "move the egg ...": it ends on the plate."""
-    words = [token.text for token in tokens]
-    for joint in (n for n in range(3, len(words) - 2) if words[n] in ("and", "then") and _leads_to(tokens, n + 1)):
-        begin = max((n for n in range(joint) if words[n] in TAKING), default=-1)
-        between = (_link(tokens, n) for n in range(begin + 1, joint))
-        from_there = any(link is not None and link.manner == "source" for link in between)
-        if begin >= 0 and from_there:
-            body = [token for token in tokens[begin + 1 : joint] if token.text != "up"]
-            return [*tokens[:begin], replace(tokens[begin], text="move"), *body, *tokens[joint:]]
-    return list(tokens)
-
-
-def _leads_to(tokens: Sequence[Token], at: int) -> bool:
-    link = _link(tokens, at)
-    return link is not None and link.manner == "goal"
-
-
-def _link(tokens: Sequence[Token], at: int) -> Link | None:
-    return LINKS.get(tuple(token.text for token in tokens[at : at + link_at(tokens, at)]))
 
 
 def with_articles(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -42,6 +42,7 @@ from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_s
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
+from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES
@@ -81,7 +82,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = sides(the_ones(one_of_two(in_colours(tokens, nouns), nouns)), nouns)
     tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
-    tokens = with_articles(allowed(_without(bare(tokens, nouns), _SILENT)), nouns)
+    tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
@@ -93,17 +94,6 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _counted_after(_owned(_lid_on(tokens), nouns), nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))
     return of_what(_relatives(by_which(borne, nouns), nouns))
-
-
-def _without(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
-    kept, at = list[Token](), 0
-    while at < len(tokens):
-        words = [token.text for token in tokens[at : at + 4]]
-        size = next((len(each) for each in phrases if tuple(words[: len(each)]) == each), 0)
-        if not size:
-            kept.append(tokens[at])
-        at += size or 1
-    return kept
 
 
 def _without_warning(tokens: Sequence[Token]) -> list[Token]:

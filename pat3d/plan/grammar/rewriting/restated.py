@@ -12,6 +12,7 @@ from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_marked, is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _EXCEPT = (("except", "for"), ("apart", "from"), ("but", "for"), ("aside", "from"), ("save", "for"), ("except",))
 _INTO = frozenset({"in", "into", "inside", "on", "onto", "upon", "to", "at"})
@@ -26,6 +27,9 @@ _TOWERING = frozenset({"towers", "looms"})
 _POSING = _TOWERING | {"glows", "glow", "shines", "shine", "gleams", "gleam", "flickers", "flicker", "burns",
     "glistens", "sparkles"}  # fmt: skip
 """Verbs of how something looks where it stands."""
+_SHINING = {"shines": ("points", "at"), "shine": ("are", "pointing", "at"), "shining": ("pointing", "at")}
+_UPON = frozenset({"on", "onto", "upon", "at", "over"})
+"""Words before what a lamp lights."""
 _NEAR = frozenset({"behind", "beside", "under", "on", "near", "between", "over", "above", "by", "beneath"})
 _ONE_OF = frozenset({"one", "other", "another", "first", "second", "third", "fourth", "last", "left", "right"})
 """Words for one of several that are not named again."""
@@ -48,9 +52,24 @@ def _own(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+def _shining(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a lamp shines on a book" as "points at a book": no lamp stands there, as it may on a desk."""
+    words = [token.text for token in tokens]
+    for at in (n for n in range(len(words) - 3, 0, -1) if words[n] in _SHINING):
+        upon = at + 1 + (words[at + 1] == "down")
+        named = next((n for n in range(upon + 1, len(words)) if tokens[n].mark or nouns.match([words[n]])), upon)
+        lit = nouns.match([words[named]])
+        desk = lit is None or (words[upon] == "on" and nouns.of_class(lit.noun, lexicon.LEVEL))
+        if words[upon] in _UPON and (not desk or words[upon + 1] in ("it", "them")):
+            points = [replace(tokens[at], text=word) for word in _SHINING[words[at]]]
+            return _shining([*tokens[:at], *points, *tokens[upon + 1 :]], nouns)
+    return list(tokens)
+
+
 def _posing(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a lamp glows behind the clock" as "stands behind", "towers over it" as "stands next to it"."""
-    made = list(tokens)
+    made = _shining(tokens, nouns)
+    tokens = list(made)
     for at in range(len(tokens) - 3, 0, -1):
         word, before = tokens[at].text, tokens[at - 1].text
         size = link_at(tokens, at + 1)
@@ -82,7 +101,7 @@ def _of_material(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def bare(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "only a cup" as "a cup", "by that a cup" as "by it a cup", "the rest red" as "the rest are red"."""
+    """`tokens` with "only a cup" as "a cup", "on that: a cup" as "on that one", "the rest red" as "... are red"."""
     tokens = _of_material(_posing(_own(tokens), nouns), nouns)
     kept: list[Token] = []
     for at, token in enumerate(tokens):
@@ -116,13 +135,18 @@ def bare(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if token.text in ("both", "all") and before in lexicon.COPULAS and len(kept) > 1 and state:
             # "They are both yellow."
             continue
-        # "In that one lies a coin": in the one named last.
+        # "In that one lies a coin", "on that: a cup": in and on the one named last. "By that a cup" is by it.
         later = tokens[min(at + 2, len(tokens) - 1)]
         one = follower.text == "one" and (later.mark or later.text in FINITE or later.text in lexicon.DETERMINERS)
-        pointing = token.text == "that" and not one
-        pointing = pointing and (follower.text in ("a", "an", ",") or follower.text in lexicon.NUMBERS)
-        if pointing and any(link_at(tokens, at - n) == n for n in range(1, min(at, 4) + 1)):
-            token = replace(token, text="it")
+        pointing = token.text in ("that", "this") and not one
+        size = next((n for n in range(min(at, 4), 0, -1) if link_at(tokens, at - n) == n), 0) if pointing else 0
+        opens = at == size or tokens[at - size - 1].text in (",", ";", "and")
+        if size and (follower.text in ("a", "an", ",", ":") or follower.text in lexicon.NUMBERS or (
+                opens and follower.text in lexicon.STANDING | {"there"})):  # fmt: skip
+            link = LINKS.get(tuple(each.text for each in tokens[at - size : at]))
+            carried = link is not None and link.kind in SUPPORT_KINDS
+            kept += [replace(token, text=word) for word in (("that", "one") if carried else ("it",))]
+            continue
         kept.append(token)
     return kept
 
@@ -199,19 +223,24 @@ def one_of_two(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "nuts into one box and bolts into the other" as "... one of the two boxes ... the other box"."""
     words = [token.text for token in tokens]
     for at in range(1, len(words) - 4):
-        if words[at] != "one" or words[at - 1] not in _INTO:
+        if words[at] != "one" or words[at - 1] not in _INTO | {"from"}:
             continue
         end = at + 1
         while is_modifier(words[end]):
             end += 1
-        name = nouns.match([words[end]])
-        other = next((n for n in range(end + 2, len(words) - 1) if words[n : n + 2] == ["the", "other"]
-                      and words[n - 1] in _INTO), 0)  # fmt: skip
-        if name is None or name.plural or words[end] == "side" or not other or "." in words[at:other]:
+        name, off = nouns.match([words[end]]), words[at - 1] == "from"
+        other = next((n for n in range(end + 1 + (not off), len(words) - 1) if words[n : n + 2] == ["the", "other"]
+                      and (words[n - 1] in _INTO or (off and words[n - 1] == "from"))), 0)  # fmt: skip
+        known = (name is not None and not name.plural and words[end] != "side") or (off and other == end + 2)
+        if not known or not other or "." in words[at:other]:
             continue
         behind = other + 2 + (words[other + 2] in ("one", words[end]))
         if not (tokens[behind].mark or words[behind] in ("and", "while")):
             continue
+        if off:
+            # "From one bowl to the other"
+            named = [replace(tokens[other + 1], text=each.text) for each in tokens[at + 1 : end + 1]]
+            return [*tokens[: other + 2], *named, *tokens[behind:]]
         some = [replace(tokens[at], text=word) for word in ("one", "of", "the", "two")]
         many = replace(tokens[end], text=plural(words[end]))
         return [*tokens[:at], *some, *tokens[at + 1 : end], many, *tokens[end + 1 : other + 2],

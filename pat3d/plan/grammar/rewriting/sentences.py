@@ -31,7 +31,8 @@ CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 _MORE = frozenset({"another", "other", "others", "also", "too", "more", "else", "still", "then"})
 """Words by which what there is is said of further things."""
 _MOVED = frozenset({"rolled", "fallen", "slid", "slipped", "dropped", "tumbled", "landed", "bounced", "jumped",
-    "climbed", "crept", "crawled", "hopped", "leapt", "flown"})  # fmt: skip
+    "climbed", "crept", "crawled", "hopped", "leapt", "flown", "spilled", "spilt", "escaped"})  # fmt: skip
+_FROM = (("out", "of"), ("from",), ("off",))
 _TO = {"into": "in", "onto": "on", "under": "under", "beneath": "under", "underneath": "under", "below": "under"}
 """Where something is that has moved there."""
 _LADEN = frozenset({
@@ -41,6 +42,8 @@ _LADEN = frozenset({
 """What a table is when the things that are told of next stand on it."""
 
 
+_HAD = ("of", "with")
+_COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
 
@@ -53,7 +56,8 @@ def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
     told = _conditions(brought_about(_labelled(parts)))
-    told = _come_to_rest([_wherever(each) for each in plainly_asked(told, nouns)])
+    told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(_wherever(each))]
+    told = _come_to_rest(told)
     told = one_for_each(_reordered(exceptions(told), nouns))
     return [sentence for sentence in told if len(sentence) > 1]
 
@@ -200,6 +204,49 @@ def _wherever(sentence: list[Token]) -> list[Token]:
     return [replace(sentence[0], text="every"), *named, has, *sentence[at + 2 + (words[at + 2] == "also") :]]
 
 
+def _no_longer(told: list[list[Token]]) -> list[list[Token]]:
+    """`told` with "there used to be a jug on the mat; now there is a cup" as "there is a cup on the mat".
+
+    So is "the mat used to hold a jug, but now it holds a cup" of the mat: the audit names what was there.
+    """
+    made: list[list[Token]] = []
+    for sentence in told:
+        words = [token.text for token in sentence]
+        now = next((n for n, word in enumerate(words[:-3]) if word == "now" and words[n - 1] in (".", ",", "but")), -1)
+        before = sentence[:now] if now > 1 else made[-1] if made and now >= 0 else []
+        said = [token.text for token in before]
+        used = next((n for n in range(1, len(said) - 1) if said[n : n + 2] == ["used", "to"]), 0)
+        if not used and said[:2] not in (["there", "was"], ["there", "were"]):
+            made.append(sentence)
+            continue
+        there = list(sentence[now + 1 :])
+        if said[0] == "there":
+            # "Now there is a pear in it"
+            end = next((n for n in range(2, len(there)) if link_at(there, n) and there[n].text not in _HAD), -1)
+            place = next((n for n in range(4, len(said)) if link_at(before, n) and said[n] not in _HAD), len(said))
+            stop = next((n for n in range(place, len(said)) if before[n].mark), len(said))
+            if end < 0 or there[-2].text in ("it", "them"):
+                there[end:-1] = before[place:stop]
+        elif there[0].text in ("it", "they"):
+            there[:1] = before[:used]
+        made[-1 if now <= 1 else len(made) :] = [there]
+    return made
+
+
+def _out_of_which(sentence: list[Token]) -> list[list[Token]]:
+    """Tell "a jug from which two peas have rolled" as "a jug. two peas have rolled off it."."""
+    words = [token.text for token in sentence]
+    for which in (n for n in range(2, len(words) - 4) if words[n] == "which"):
+        size = next((n for n in (2, 1) if tuple(words[which - n : which]) in _FROM), 0)
+        has = next((n for n in range(which, len(words) - 1) if sentence[n].mark or words[n] in ("has", "have")), 0)
+        if size and words[has] in ("has", "have") and words[has + 1] in _MOVED:
+            start = which - size - (words[which - size - 1] == ",")
+            off = [replace(sentence[which - size], text="off"), replace(sentence[which], text="it")]
+            return [[*sentence[:start], sentence[-1]],
+                    [*sentence[which + 1 : has + 2], *off, *sentence[has + 2 :]]]  # fmt: skip
+    return [sentence]
+
+
 def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:
     """`told` with "a pea has rolled under the table" as "a pea is under the table".
 
@@ -245,26 +292,33 @@ def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:
 def _reordered(told: list[list[Token]], known: Nouns) -> list[list[Token]]:
     """`told` with "there are three plates" before the "every plate", or "the plates", of which it gives the number.
 
-    So is "there is a cup on the table" before "put the cup on the tray", which it tells the beginning of.
+    So are "there is a cup on the table" and "on the table are a cup and a jug" before "put the cup on the tray", which
+    they tell the beginning of.
     """
     made = list(told)
     for at, sentence in enumerate(made):
         words = [token.text for token in sentence]
-        follows_on = len(words) > 6 and {*words} & lexicon.PRONOUNS
         there = words[:2] in (["there", "are"], ["there", "is"], ["there's", "a"])
-        if not there or follows_on or {*words} & _MORE:
+        # "The tray has a cup and a jug on it"
+        own = words[-2:-1] == ["it"] and words[0] in lexicon.DETERMINERS
+        follows_on = (len(words) > 6 or not there) and {*words[: -2 if own else None]} & lexicon.PRONOUNS
+        scene = base_verb(words[0]) != words[0] and words[0] not in CONDITIONS and {*words} & FINITE
+        if not (there or scene) or follows_on or {*words} & _MORE:
             continue
         nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
         link = next((n for n in range(3, len(words)) if sentence[n].mark or link_at(sentence, n)), 3)
-        ones = (guess for word in words[2:link] for guess in (word, *singulars(word)))
+        led = range(2, link) if there else [n for n in range(1, len(words)) if {*words[max(n - 3, 0) : n]} & _COUNTING]
+        ones = (guess for n in led for guess in (words[n], *singulars(words[n])))
         told_later = {one for one in ones if known.match([one])} - lexicon.NUMBERS.keys()
-        told_later |= {word for word in words[2:link] if told_later & {*singulars(word)}}
+        told_later |= {words[n] for n in led if told_later & {*singulars(words[n])}}
         for before in range(at):
             before_it = [token.text for token in made[before]]
             named = [one for one, two in zip(before_it, before_it[1:], strict=False) if two in nouns]
             old = words[:2] in (["there", "are"], ["there's", "a"])
             old = old and bool({*named} & {"each", "every"} or {*named} == {"the"})
-            if old or (base_verb(before_it[0]) == before_it[0] and told_later & {*before_it}):
+            # "Sort the cups", and "the cup" of "put all but the cup in the box"
+            asks = base_verb(before_it[0]) == before_it[0] or (before_it[0] == "the" and not {*before_it} & FINITE)
+            if old or (asks and told_later & {guess for word in before_it for guess in (word, *singulars(word))}):
                 made.insert(before, made.pop(at))
                 break
     return made

@@ -84,7 +84,9 @@ class Boundaries:
             return True
         if not words:
             # "one contains three pens", where nothing is called a contains.
-            headless = at > 0 and self._tokens[at - 1].text in (*lexicon.NUMBERS, "other", "another")
+            before = self._tokens[at - 1].text if at else ""
+            more = before == "more" and not word.endswith("ing")
+            headless = more or before in (*lexicon.NUMBERS, "other", "another")
             placed = word in lexicon.VERBS | lexicon.PARTICIPLES and link_at(self._tokens, at + 1) > 0
             # "Inside that one lies a coin"
             placed = placed or (

@@ -14,6 +14,18 @@ def without(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]
     return tuple(token for at, token in enumerate(tokens) if not any(start <= at < end for start, end in spans))
 
 
+def without_phrases(tokens: Sequence[Token], phrases: Sequence[tuple[str, ...]]) -> list[Token]:
+    """`tokens` without `phrases`, each of four words at most."""
+    kept, at = list[Token](), 0
+    while at < len(tokens):
+        words = [token.text for token in tokens[at : at + 4]]
+        size = next((len(each) for each in phrases if tuple(words[: len(each)]) == each), 0)
+        if not size:
+            kept.append(tokens[at])
+        at += size or 1
+    return kept
+
+
 def doing_nothing(tokens: Sequence[Token], spans: Sequence[Span]) -> tuple[Token, ...]:
     """`tokens` without `spans`; of "is playing with a cat" what is left is "and there is a cat": nothing has it."""
     made: list[Token] = []

@@ -33,7 +33,8 @@ class Link:
     """For manner "half": which part of the parent."""
     said: str = ""
     """For manner "than": the comparison, as written; for "half" words that may as well mean beside it; for "edge"
-    which; "over" where something may be put over it; "onto" where it is said to come to be on it, and not only "to" it.
+    which; "over" where something may be put over it; "onto" where it is said to come to be on it, and not only "to" it;
+    "off" where it was on it, and not in it.
     """
     says: ArrangementKind | None = None
     """What the words say beyond `kind`, which stands in where the layout cannot arrange it."""
@@ -87,7 +88,8 @@ def _table() -> dict[tuple[str, ...], Link]:
     add(Link(manner="far"), "far from", "far away from", "away from", "furthest from", "farthest from",
         "further from", "farther from",
         "furthest away from", "farthest away from", "further away from", "farther away from")  # fmt: skip
-    add(Link(manner="source", kind="on"), "from", "off", "off of", "from the top of", "from above",
+    add(Link(manner="source", kind="on"), "from")
+    add(Link(manner="source", kind="on", said="off"), "off", "off of", "from the top of", "from above",
         "from on top of")  # fmt: skip
     add(Link(manner="source", kind="in"), "out of", "from inside")
     add(Link(manner="source", kind="next_to"), "from the base of", "from the foot of", "from beside", "from next to")
@@ -256,7 +258,9 @@ EACH_OTHER: dict[tuple[str, ...], str] = {
             "one on top of another", "on top of one another", "one atop the other", "one atop another", "stacked up",
             "stacked", "piled", "piled up", "in a stack", "in a pile", "in a tower", "in a column", "into a stack",
             "into a tower", "into a pile", "in one stack", "on top of one other", "one above the other",
-            "on one another",
+            "on one another", *(f"nested {within} {other}" for within in ("in", "inside", "within")
+                                          for other in ("each other", "one another")),
+            "nested one inside the other", "nested one in the other",
         ),
         "row": (
             "in a row", "in a line", "lined up", "in one row", "in a single row", "in a straight line", "into a row",
