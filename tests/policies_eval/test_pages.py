@@ -9,12 +9,12 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from pat3d.scene.task_spec import AND_THEN
 from pat3d.policies_eval.analysis.report import write_report
 from pat3d.policies_eval.analysis.summary import show_summary, summarise
 from pat3d.policies_eval.run.episodes import Episode
 from pat3d.policies_eval.run.records import Evaluation
 from pat3d.policies_eval.run.rollout import NO_EVENTS, Result
+from pat3d.scene.task_spec import AND_THEN
 
 
 def episode(index, task="pick:cup", scene="one", **axes):
