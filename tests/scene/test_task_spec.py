@@ -20,6 +20,7 @@ PUT, STACK, ASIDE, PICK = "place:red mug:tray", "stack:cup:saucer", "beside:fork
 )
 def test_a_chain_is_taken_apart_as_it_was_made(steps: list[str]):
     chain = chain_of(steps)
+    assert chain is not None
     assert chain == f"chain:{':then:'.join(steps)}"
     assert [":".join(step) for step in steps_of(chain)] == steps
 
