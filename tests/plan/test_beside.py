@@ -80,6 +80,29 @@ def test_several_are_a_chain(prompt: str, made: list[str]):
     assert (plan.task, plan.relations, steps(plan)) == (chain(*made), (), made)
 
 
+@pytest.mark.parametrize(
+    ("prompt", "made"),
+    [
+        # What a vessel, a plate or a block carries leaves no room beside it there.
+        ("Put the egg in the cup and the spoon beside it.", ["place:egg:cup", "beside:spoon:next_to:cup"]),
+        ("Put the cup on the saucer. Put the spoon to the right of it.",
+         ["place:cup:saucer", "beside:spoon:right_of:saucer"]),
+        ("Stack the red block on the blue block and put the green block next to it.",
+         ["stack:red block:blue block", "beside:green block:next_to:blue block"]),
+        # On a tray and on a placemat things stand beside each other.
+        ("Put the plate on the tray and the fork left of it.", ["place:plate:tray", "beside:fork:left_of:plate"]),
+        ("Put the plate on the table and the fork beside it.", ["place:plate:table", "beside:fork:next_to:plate"]),
+        ("Put the mug next to the jar. Then put the spoon left of it.",
+         ["beside:mug:next_to:jar", "beside:spoon:left_of:mug"]),
+        ("Put the steak on the plate and the carrot next to it.", ["place:steak:plate", "beside:carrot:next_to:steak"]),
+        # Where the thing itself is named it is meant.
+        ("Put the egg in the cup and the spoon beside the jug.", ["place:egg:cup", "beside:spoon:next_to:jug"]),
+    ],
+)  # fmt: skip
+def test_beside_it_is_where_there_is_room(prompt: str, made: list[str]):
+    assert PLANNER.plan(prompt).task == chain(*made)
+
+
 def test_what_is_moved_twice_is_no_chain():
     plan = PLANNER.plan("Put the pear next to the jug, then put the pear in the bowl.")
     assert (plan.task, steps(plan)) == (None, ["beside:pear:next_to:jug", "place:pear:bowl"])
