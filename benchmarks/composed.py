@@ -23,6 +23,7 @@ from random import Random
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from benchmarks.composing.arranged import arrangement, posture
+from benchmarks.composing.aside import aside
 from benchmarks.composing.asked import instruction
 from benchmarks.composing.captions import captions
 from benchmarks.composing.clauses import clauses
@@ -50,6 +51,7 @@ FAMILIES: dict[str, Callable[[Draw], str]] = {
     "arrangement": arrangement, "contents": contents, "instruction": instruction, "reference": reference,
     "nested": nested, "shares": shares, "clauses": clauses, "mixed": mixed, "terse": terse, "steps": steps,
     "positions": positions, "captions": captions, "dense": dense, "household": household, "extremes": extremes,
+    "aside": aside,
 }  # fmt: skip
 VERDICTS = ("right", "right with notes", "silently wrong", "refused")
 

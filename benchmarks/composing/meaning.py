@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from benchmarks.composing.nouns import MATERIALS, SIZES, Noun
@@ -75,7 +75,10 @@ class Meaning:
     """Kinds of task any of which is right; empty for what no task does."""
     of_task: list[Thing] = field(default_factory=list)
     steps: list[tuple[list[str], list[Thing]]] = field(default_factory=list)
-    """Several tasks, in order: kinds any of which is right, and what each is about."""
+    """Several tasks, in order: kinds any of which is right, and what each is about.
+
+    A place beside something is a kind of its own for each side: "beside:left_of".
+    """
     words: set[str] = field(default_factory=set)
     """Words that say how things belong together ("respectively"): a note that quotes one names what differs."""
 
@@ -287,7 +290,7 @@ def _task(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> li
     nouns = tuple(dict.fromkeys(thing.noun.word for thing in meaning.of_task))
     if plan.task is None:
         return [Difference("no task", nouns, ("task",))] if meaning.task else []
-    kind, *names = plan.task.split(":")
+    kind, names = _about(plan.task.split(":"))
     if not meaning.task:
         return [Difference(f"task {plan.task}", nouns, ("task",))]
     if kind in meaning.task and [pairing.get(name) for name in names] == meaning.of_task:
@@ -298,13 +301,19 @@ def _task(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> li
 def _steps(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> list[Difference]:
     """How the tasks that a note lists, where a plan has no single one, differ from the steps that are meant."""
     told = next((note.removeprefix(SEVERAL).strip(" .") for note in plan.notes if note.startswith(SEVERAL)), "")
-    found = steps_of(plan.task) if plan.task else [step.split(":") for step in told.split(", ")]
+    found = [*map(_about, steps_of(plan.task) if plan.task else [step.split(":") for step in told.split(", ")])]
     right = len(found) == len(meaning.steps) and all(
         kind in kinds and [pairing.get(name) for name in names] == things
-        for (kind, *names), (kinds, things) in zip(found, meaning.steps, strict=True)
+        for (kind, names), (kinds, things) in zip(found, meaning.steps, strict=True)
     )
     nouns = tuple(dict.fromkeys(thing.noun.word for _, things in meaning.steps for thing in things))
     return [] if right else [Difference(f"steps {told or plan.task}", nouns, ("task",))]
+
+
+def _about(step: Sequence[str]) -> tuple[str, list[str]]:
+    """The kind of a step, with the side of what is put beside something, and the names of what it is about."""
+    kind, *names = step
+    return (f"beside:{names[1]}", [names[0], names[2]]) if kind == "beside" else (kind, names)
 
 
 def _listed(things: Iterable[Thing]) -> str:

@@ -6,6 +6,7 @@ import pytest
 
 from pat3d.plan.scene_plan import Arrangement, Posture, ScenePlan
 from tests.plan.test_audit_members import notes, plan
+from tests.plan.vocabulary import chain
 
 CASES = [
     # Where "in it" ends, and what "holding" is said of.
@@ -62,7 +63,7 @@ def test_both_are_more_than_one():
     told = plan("Push the fork to the cup, then put both on the tray.", "fork=the fork; cup=the cup; tray=the tray",
                 task="place:fork:tray")  # fmt: skip
     assert '"both" is read as "fork" alone' in notes(told)
-    both = replace(told, notes=("several tasks: place:fork:tray, place:cup:tray.",))
+    both = replace(told, task=chain("place:fork:tray", "place:cup:tray"))
     assert not any('"both"' in note for note in notes(both))
 
 

@@ -4,6 +4,7 @@ import pytest
 
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
+from tests.plan.vocabulary import chain
 
 PLANNER = GrammarPlanner()
 
@@ -12,18 +13,13 @@ def nouns(plan: ScenePlan) -> list[str]:
     return sorted(obj.noun for obj in plan.objects)
 
 
-def tasks(plan: ScenePlan) -> list[str]:
-    several = next((note for note in plan.notes if note.startswith("the instruction is several tasks")), "")
-    return several.rpartition("at a time: ")[2].strip(".").split(", ") if several else [plan.task or ""]
-
-
 def relations(plan: ScenePlan) -> set[str]:
     return {str(relation) for relation in plan.relations}
 
 
 def others(plan: ScenePlan) -> list[str]:
-    """Notes but those on how many are assumed, on the several tasks, and on wording that was not tried."""
-    known = ("assumed.", "several tasks", "worded like nothing", "is made as a")
+    """Notes but those on how many are assumed, and on wording that was not tried."""
+    known = ("assumed.", "worded like nothing", "is made as a")
     return [note for note in plan.notes if not any(word in note for word in known)]
 
 
@@ -53,7 +49,7 @@ def test_what_is_listed_is_what_the_instruction_speaks_of(
     prompt: str, made: list[str], there: set[str], asked: list[str]
 ):
     plan = PLANNER.plan(prompt)
-    assert (nouns(plan), relations(plan), tasks(plan)) == (made, there, asked)
+    assert (nouns(plan), relations(plan), plan.task) == (made, there, chain(*asked))
     assert not [note for note in others(plan) if "no task does that" not in note]
 
 
@@ -81,7 +77,7 @@ def test_a_list_in_an_order_is_no_list_of_what_is_moved():
 def test_as_many_as_are_told_of_are_moved_one_to_each(prompt: str):
     plan = PLANNER.plan(prompt)
     assert (nouns(plan), relations(plan)) == (["cup"] * 3 + ["egg"] * 3, set[str]())
-    assert tasks(plan) == [f"place:egg {n}:cup {n}" for n in (1, 2, 3)]
+    assert plan.task == chain(*(f"place:egg {n}:cup {n}" for n in (1, 2, 3)))
     assert not others(plan)
 
 
@@ -106,25 +102,21 @@ def test_where_things_are_to_go_is_asked_and_not_there(
     prompt: str, made: list[str], there: set[str], asked: list[str], heading: str
 ):
     plan = PLANNER.plan(prompt)
-    assert (nouns(plan), relations(plan), tasks(plan)) == (made, there, asked)
+    assert (nouns(plan), relations(plan), plan.task) == (made, there, chain(*asked))
     assert others(plan) == [f'not modelled: "{heading}"']
 
 
 def test_a_heading_that_names_a_further_thing_has_it_there():
     plan = PLANNER.plan("Lay the desk: put the vase behind the lamp, the cup left of the vase and the pen beside it.")
     assert (nouns(plan), relations(plan)) == (["cup", "desk", "lamp", "pen", "vase"], set[str]())
-    assert others(plan) == [
-        'not modelled: "Lay the desk": no task does that.',
-        'not modelled: "put the vase behind the lamp": no task does that.',
-        'not modelled: "the cup left of the vase": no task does that.',
-        'not modelled: "the pen beside it": no task does that.',
-    ]
+    assert plan.task == chain("beside:vase:behind:lamp", "beside:cup:left_of:vase", "beside:pen:next_to:cup")
+    assert others(plan) == ['not modelled: "Lay the desk": no task does that.']
 
 
 def test_where_things_are_told_behind_a_colon_is_where_they_are():
     plan = PLANNER.plan("Put the vases in the sink: they are on the bench.")
     assert relations(plan) == {f"vase {n} on bench" for n in (1, 2, 3)}
-    assert tasks(plan) == [f"place:vase {n}:sink" for n in (1, 2, 3)]
+    assert plan.task == chain(*(f"place:vase {n}:sink" for n in (1, 2, 3)))
 
 
 @pytest.mark.parametrize(

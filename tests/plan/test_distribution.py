@@ -7,6 +7,7 @@ import pytest
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
+from tests.plan.vocabulary import chain
 
 
 @pytest.fixture(scope="module")
@@ -114,26 +115,26 @@ def test_a_noun_left_out_is_that_of_its_like(planner, prompt, supports):
 def test_two_are_moved_where_each_is_told_by_its_place(planner):
     plan = planner.plan("Put the first mug on the tray and the second on the shelf.")
     assert [obj.name for obj in plan.objects] == ["mug 1", "tray", "mug 2", "shelf"]
-    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+    assert plan.task == chain("place:mug 1:tray", "place:mug 2:shelf")
 
 
 def test_one_and_the_other_are_both_moved(planner):
     plan = planner.plan("Put one mug on the tray and the other on the shelf.")
     assert not any(rel.supports for rel in plan.relations)
-    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+    assert plan.task == chain("place:mug 1:tray", "place:mug 2:shelf")
 
 
 def test_two_are_moved_where_each_is_told_by_where_it_is(planner):
     plan = planner.plan("Move the mug on the desk to the tray and the one on the table to the shelf.")
     assert {str(rel) for rel in plan.relations} == {"mug 1 on desk", "mug 2 on table"}
-    assert any("place:mug 1:tray, place:mug 2:shelf" in note for note in plan.notes)
+    assert plan.task == chain("place:mug 1:tray", "place:mug 2:shelf")
 
 
 def test_two_are_moved_where_each_is_told_by_its_colour(planner):
     plan = planner.plan("Put the red mug on the tray and the blue one on the shelf.")
     assert [obj.name for obj in plan.objects] == ["red mug", "tray", "blue mug", "shelf"]
     assert not any(rel.supports for rel in plan.relations)
-    assert any("place:red mug:tray, place:blue mug:shelf" in note for note in plan.notes)
+    assert plan.task == chain("place:red mug:tray", "place:blue mug:shelf")
 
 
 @pytest.mark.parametrize(

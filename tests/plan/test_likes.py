@@ -4,6 +4,7 @@ import pytest
 
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
+from tests.plan.vocabulary import chain
 
 
 @pytest.fixture(scope="module")
@@ -161,8 +162,8 @@ def test_members_of_what_was_named(planner: GrammarPlanner, prompt: str, noun: s
 
 
 def test_the_rest_are_moved_where_the_rest_are_said_to_go(planner: GrammarPlanner):
-    notes = " ".join(planner.plan("Put two of the four figs in the cup and the rest in the bowl.").notes)
-    assert "place:fig 1:cup, place:fig 2:cup, place:fig 3:bowl, place:fig 4:bowl" in notes
+    plan = planner.plan("Put two of the four figs in the cup and the rest in the bowl.")
+    assert plan.task == chain("place:fig 1:cup", "place:fig 2:cup", "place:fig 3:bowl", "place:fig 4:bowl")
 
 
 def test_what_has_its_colour_keeps_it_when_it_is_sorted(planner: GrammarPlanner):

@@ -4,6 +4,7 @@ import pytest
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
+from tests.plan.vocabulary import chain
 
 PLANNER = GrammarPlanner()
 
@@ -64,14 +65,28 @@ def test_nothing_but_some_things_is_these(prompt: str, relations: set[str]):
 
 
 @pytest.mark.parametrize(
+    ("prompt", "steps"),
+    [
+        ("Put the apple on the plate, and the fork beside it.", ["place:apple:plate", "beside:fork:next_to:plate"]),
+        ("Put the lid back on the pot, and the spoon beside it.", ["place:lid:pot", "beside:spoon:next_to:pot"]),
+        ("Move the ball into the box, and the cube in front of the box.",
+         ["place:ball:box", "beside:cube:in_front_of:box"]),
+        ("Put the red cup next to the jar and the lemon in the bowl.",
+         ["beside:red cup:next_to:jar", "place:lemon:bowl"]),
+    ],
+)  # fmt: skip
+def test_the_half_that_is_beside_something_is_a_step(prompt: str, steps: list[str]):
+    plan = PLANNER.plan(prompt)
+    assert plan.task == chain(*steps)
+    assert not [note for note in plan.notes if "no task does that" in note]
+
+
+@pytest.mark.parametrize(
     ("prompt", "task", "half"),
     [
-        ("Put the apple on the plate, and the fork beside it.", "place:apple:plate", "the fork beside it"),
-        ("Put the lid back on the pot, and the spoon beside it.", "place:lid:pot", "the spoon beside it"),
-        ("Move the ball into the box, and the cube in front of the box.", "place:ball:box",
-         "the cube in front of the box"),
-        ("Put the red cup next to the jar and the lemon in the bowl.", "place:lemon:bowl",
-         "Put the red cup next to the jar"),
+        ("Put the apple on the plate, and the fork under the bowl.", "place:apple:plate", "the fork under the bowl"),
+        ("Move the ball into the box, and the cube far from the box.", "place:ball:box", "the cube far from the box"),
+        ("Put the red cup under the lamp and the lemon in the bowl.", "place:lemon:bowl", "the red cup under the lamp"),
     ],
 )  # fmt: skip
 def test_the_half_that_is_no_task_is_named_alone(prompt: str, task: str, half: str):

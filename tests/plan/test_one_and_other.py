@@ -6,6 +6,7 @@ import pytest
 
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
+from tests.plan.vocabulary import chain
 
 
 def read(prompt: str) -> ScenePlan:
@@ -35,7 +36,7 @@ def test_the_other_of_two_trays_is_no_side():
     plan = read("Put the lemon on one tray and the lime on the other.")
     assert nouns(plan, "tray") == ["tray 1", "tray 2"]
     assert plan.relations == ()
-    assert any("place:lemon:tray 1, place:lime:tray 2" in note for note in plan.notes)
+    assert plan.task == chain("place:lemon:tray 1", "place:lime:tray 2")
 
 
 def test_a_like_stands_where_its_own_clause_has_it():

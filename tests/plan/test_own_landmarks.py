@@ -40,7 +40,7 @@ def test_is_said_of_its_own(prompt: str, relations: set[str]):
         ("Pick up the jug and toss it to me.", "pick:jug", 'not modelled: "toss it to me": no task does that.'),
         ("Grab the ball from the crate and throw it over.", "pick:ball", 'not modelled: "throw it over"'),
         ("Pick up the ball and toss it into the crate.", "place:ball:crate", ""),
-        ("Pick up the ball and put it beside the crate.", None, 'not modelled: "put it beside the crate"'),
+        ("Pick up the ball and put it beside the crate.", "beside:ball:next_to:crate", ""),
     ],
 )
 def test_what_is_handed_over_is_picked_up(prompt: str, task: str | None, note: str):

@@ -3,6 +3,7 @@
 import pytest
 
 from pat3d.plan.grammar.planner import GrammarPlanner
+from tests.plan.vocabulary import chain
 
 PLANNER = GrammarPlanner()
 
@@ -97,15 +98,6 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
 @pytest.mark.parametrize(
     ("prompt", "note"),
     [
-        ("Stack the three crates on the pallet.",
-         "the instruction is several tasks, of which the environment has one at a time: place:crate 1:pallet, "
-         "stack:crate 2:crate 1, stack:crate 3:crate 2."),
-        ("Stack the three bowls on top of each other.",
-         "the instruction is several tasks, of which the environment has one at a time: stack:bowl 2:bowl 1, "
-         "stack:bowl 3:bowl 2."),
-        ("Put the red cube in left crate and the blue cube in right crate.",
-         "the instruction is several tasks, of which the environment has one at a time: place:red cube:crate 1, "
-         "place:blue cube:crate 2."),
         ("Empty the crate.", '"the crate": what is in it is not said; it is made empty.'),
         ("Line the two jars up on the bench.", 'not modelled: "in a row" in what is to be done'),
         ("Scatter the two jars on the bench.",
@@ -125,6 +117,20 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
 )  # fmt: skip
 def test_what_is_made_otherwise_is_in_a_note(prompt: str, note: str):
     assert note in PLANNER.plan(prompt).notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "steps"),
+    [
+        ("Stack the three crates on the pallet.",
+         ["place:crate 1:pallet", "stack:crate 2:crate 1", "stack:crate 3:crate 2"]),
+        ("Stack the three bowls on top of each other.", ["stack:bowl 2:bowl 1", "stack:bowl 3:bowl 2"]),
+        ("Put the red cube in left crate and the blue cube in right crate.",
+         ["place:red cube:crate 1", "place:blue cube:crate 2"]),
+    ],
+)  # fmt: skip
+def test_what_takes_several_steps_is_a_chain(prompt: str, steps: list[str]):
+    assert PLANNER.plan(prompt).task == chain(*steps)
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ import pytest
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.scene_plan import ScenePlan
+from tests.plan.vocabulary import chain
 
 PLANNER = GrammarPlanner()
 
@@ -155,7 +156,7 @@ def test_all_stand_around_what_one_of_them_does():
 
 def test_the_second_thing_of_an_instruction_has_its_own_goal():
     plan = PLANNER.plan("Put the jam jar to the right of the plate and the red cup on the plate.")
-    assert plan.task == "place:red cup:plate"
+    assert plan.task == chain("beside:jam jar:right_of:plate", "place:red cup:plate")
     assert not plan.relations
 
 

@@ -1,9 +1,13 @@
-"""A small fixed vocabulary, so that the planner's tests do not depend on what the catalogue makes."""
+"""A small fixed vocabulary, so that the planner's tests do not depend on what the catalogue makes; steps of a task."""
 
 from __future__ import annotations
 
 import difflib
 from dataclasses import dataclass
+
+from pat3d.plan.grammar.meaning.tasks import SEVERAL
+from pat3d.plan.scene_plan import ScenePlan
+from pat3d.scene.task_spec import chain_of, steps_of
 
 NOUNS: dict[str, tuple[str, ...]] = {
     "bed": (), "bedside table": ("nightstand",), "lamp": ("table lamp",), "bookshelf": ("bookcase",), "dog": ("puppy",),
@@ -55,3 +59,20 @@ class Table:
 
     def nearest(self, name: str, count: int = 3) -> tuple[str, ...]:
         return tuple(difflib.get_close_matches(name, self.names(), n=count, cutoff=0.5))
+
+
+def steps(plan: ScenePlan) -> list[str]:
+    """The steps of the task of `plan`, or those of which a note says that they are more than a chain holds."""
+    told = [note.removeprefix(SEVERAL).strip(" .") for note in plan.notes if note.startswith(SEVERAL)]
+    if plan.task is None:
+        return told[0].split(", ") if told else []
+    # What is a task is not told as more than one.
+    assert not told
+    return [":".join(step) for step in steps_of(plan.task)]
+
+
+def chain(*made: str) -> str:
+    """The task that is the steps `made`, one after the other."""
+    task = chain_of(made)
+    assert task is not None
+    return task

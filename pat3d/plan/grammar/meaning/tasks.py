@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from pat3d.plan.grammar.meaning.entities import Item, Step
+from pat3d.plan.grammar.meaning.kinds import KINDS
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import VERBS, base_of
 from pat3d.plan.grammar.words import lexicon
@@ -28,8 +29,21 @@ _BRINGING = frozenset(
 )
 """Verbs by which something comes to be beside what it is brought "to"."""
 _SIDE_OF = re.compile(r"\b(left|right)(?:-hand| hand)? side of\b", re.IGNORECASE)
+_AT_SIDE_OF = re.compile(r"\b(?:on|to|at) the (?:left|right)(?:[- ]hand)?(?: side)? of\b", re.IGNORECASE)
+"""What is "on the right side of the plate" is in no half of it."""
+_ASIDE = r"(?:to the )?(?:left of|right of|in front of|behind|next to|beside|near)\b"
+_ASIDE_TWICE = re.compile(rf"\b({_ASIDE} [^,;.]+?),? and (?={_ASIDE})", re.IGNORECASE)
+"""Two places of one thing, of which a task has the second."""
+_THERE_BEFORE = re.compile(
+    rf"{_ASIDE} .*?\b(?<!that )(?<!which )(?:ends? up|winds? up|is|are|should|must|has to|have to|goes|go|belongs?)\b",
+    re.IGNORECASE,
+)
+"""Where a thing is that is to be elsewhere: "make sure the cup behind the jar ends up on the tray"."""
 _NOT_BESIDE = frozenset({"hang", "fill"})
 """Verbs of which "at the hook" says where it is done."""
+_SMALL_DISHES = ("plate", "saucer")
+"""What has no room beside what is on it, but for what is eaten."""
+_EATEN = (*KINDS["fruit"], *KINDS["vegetable"])
 _HELD_OVER = re.compile(r"hold\b.*?\b((?:over|above) .*)", re.IGNORECASE)
 """Where a thing is held that stands nowhere then."""
 _HARDLY = 1.0
@@ -101,6 +115,11 @@ def _unsaid(step: Step, world: World) -> list[str]:
         named = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in step.items))
         if not any(item in world.supports for item in step.items):
             notes.append(f"{named}: what is in it is not said; it is made empty.")
+    if step.link and step.link.kind in LATERAL_KINDS and (twice := _ASIDE_TWICE.search(step.said)) is not None:
+        # "Put the cup left of the jar and behind the bowl"
+        parts = (other.part.lower() for other in world.steps if other.said == step.said)
+        if not any(twice[1].lower() in part for part in parts):
+            notes.append(f'not modelled: "{twice[1]}"')
     if verb and step.manner == "make":
         notes.append(f'not modelled: "{verb}": a task asks where each thing is put, not how they stand together.')
     moved = [item for item in step.items if not world.on_floor(item)]
@@ -173,16 +192,41 @@ def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: 
 
     What is brought to a thing that carries nothing is put next to it. Of furniture no robot is told to reach around.
     """
+    goal = _below_it(step, world, goal, names)
     link, verbs = step.link, {base_of(word) for word in step.said.lower().split()}
     if link is None or link.says is not None or len({*step.goal}) != 1 or world.on_floor(goal) or goal in items:
         return []
     brought = link.manner == "goal" and link.kind == "on" and link.said != "onto" and bool(verbs & _BRINGING)
-    beside = link.manner == "place" and link.kind in LATERAL_KINDS and link.kind != "around"
+    half = link.manner == "half" and _AT_SIDE_OF.search(step.said) is not None
+    beside = (link.manner == "place" or half) and link.kind in LATERAL_KINDS and link.kind != "around"
     if not (brought or beside) or verbs & _NOT_BESIDE or _BELOW.search(step.said) is not None:
+        return []
+    if _THERE_BEFORE.search(step.said) is not None:
+        return []
+    if "between" in step.part.lower().split() or "in the front of" in step.said.lower():
+        # "Between the pot and the robot": the robot is none of the scene. In the front of the basket is in it.
         return []
     side = _SIDE_OF.search(step.said) if brought else None
     kind = f"{side[1].lower()}_of" if side else "next_to" if brought else link.kind
     return [f"beside:{names[item]}:{kind}:{names[goal]}" for item in items]
+
+
+def _below_it(step: Step, world: World, goal: Item, names: Mapping[Item, str]) -> Item:
+    """What things are put beside that are to be beside "it", `goal`: what that was put in or on just before.
+
+    "Put the egg in the cup and the spoon beside it" is beside the cup; on a table or a tray things stand beside it.
+    """
+    if step.part.lower().split()[-1:] != ["it"]:
+        return goal
+    before = list(takewhile(lambda other: other is not step, world.steps))
+    put = next((other for other in reversed(before) if goal in other.items and other.goal), None)
+    if put is None or put.link is None or put.link.kind not in SUPPORT_KINDS:
+        return goal
+    below = next((item for item in put.goal if item in names), goal)
+    # "Put the steak on the plate and the carrot next to it"
+    served = all(world.is_a(item, _EATEN) for item in step.items)
+    roomy = world.likely.level(world.noun(below)) and (served or not world.is_a(below, _SMALL_DISHES))
+    return goal if world.on_floor(below) or roomy else below
 
 
 def _tower(items: Sequence[Item], names: Mapping[Item, str]) -> list[str]:
