@@ -14,6 +14,7 @@ from pat3d.scene.relations import Relation, carriers_of
 _MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
              "next_to": "next_to", "on": "under", "under": "over", "far_from": "far_from",
              "side_by_side": "side_by_side"}  # fmt: skip
+_MOVED = re.compile(r"(?:place|stack|pick|beside):([^:,.;]+)")
 _ASSUMED = re.compile(r"assumed|which is not said|is read as the scene|several tasks")
 """Notes that say how a thing is made, not that it is missing."""
 _OF = re.compile(r'^not modelled: (.*) of "[^"]*"$|^("[^"]*") of "[^"]*" is left out|^.*: (there is only one), so')
@@ -77,6 +78,8 @@ class Compared:
         self.quoted = " ".join((*plan.notes, *plan.set_aside)).lower()
         self.undone = " ".join(note for note in plan.notes if "no task does" in note).lower()
         self.tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
+        self.moved = {*_MOVED.findall(self.tasks)}
+        """What the tasks move."""
         self.edges: set[tuple[str, str, str]] = set()
         for rel in plan.relations:
             self.edges.add((rel.child, rel.kind, rel.parent))

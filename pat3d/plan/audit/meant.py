@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from itertools import pairwise
 
@@ -14,7 +13,6 @@ from pat3d.plan.audit.words import DEEDS, FINITE, POSED
 
 _BESIDE = frozenset({"beside", "front", "behind", "left", "right", "under", "against"})
 _FURTHER = frozenset({"second", "another", "third"})
-_MOVED = re.compile(r"(?:place|stack|pick):([^:,.;]+)")
 _NEAR = 5
 """Words from a verb to its relation word."""
 
@@ -135,7 +133,7 @@ def _which_is(it: Compared, claim: Claim) -> Iterator[tuple[int, str]]:
 
 def _both(it: Compared) -> Iterator[tuple[int, str]]:
     """What is moved alone where "both" are, and what stands beside both and is made twice."""
-    words, moved = it.said.words, set(_MOVED.findall(it.tasks))
+    words, moved = it.said.words, it.moved
     for at in (at for at in range(1, len(words)) if words[at] == "both" and '"both' not in it.quoted):
         if words[at - 1] in DEEDS and len(moved) == 1 and words[at + 1 : at + 2] not in (["arms"], ["hands"]):
             yield at, f'"both" is read as "{min(moved)}" alone'

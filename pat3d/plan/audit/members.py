@@ -206,7 +206,7 @@ def _plural_pronouns(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         part = [one for one in before if one.part == before[-1].part]
         told = next((each for one in part if len(each := _list_from(it, part, one)) > 1), [])
-        moved = _moved(it)
+        moved = it.moved
         single = len(moved) == 1 and not any(one.plural or (one.number or 0) > 1 for one in before) and not told
         if single and words[at] != "they" and not own:
             yield at, f'"{words[at]}" is read as "{min(moved)}" alone'
@@ -231,7 +231,7 @@ def _meant(it: Compared, at: int, start: int) -> set[str]:
     words = it.said.words
     end = next((n for n in range(at, len(words)) if words[n] in (".", ";")), len(words))
     if it.tasks.strip():
-        return _moved(it)
+        return it.moved
     colour = next((word for word in words[at:end] if find_colour(word)), None)
     if colour is not None and words[at + 1 : at + 2] == ["are"]:
         return {obj.name for obj in it.plan.objects if it.has(obj, colour)}
@@ -241,10 +241,6 @@ def _meant(it: Compared, at: int, start: int) -> set[str]:
     if claim is None:
         return set()
     return _related(it, claim, at)
-
-
-def _moved(it: Compared) -> set[str]:
-    return set(re.findall(r"(?:place|pick|stack):([^:,.]+)", it.tasks))
 
 
 def _related(it: Compared, claim: Claim, at: int) -> set[str]:
@@ -315,7 +311,7 @@ def _out_of_each(it: Compared) -> Iterator[tuple[int, str]]:
     for at in (at for at, word in enumerate(words) if word == "each" and words[at - 1] in ("from", "of", "in", "on")):
         owner = next((one for one in it.said.mentions if one.start > at), None)
         count = len(it.which(owner)) if owner is not None else 0
-        if len(_moved(it)) == 1 and count > 1 and it.plan.task is not None:
+        if len(it.moved) == 1 and count > 1 and it.plan.task is not None:
             yield at, f'not as said: "{words[at - 1]} each"; the task moves one thing'
 
 

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.words import HOLLOW, NUMBERS, PLACING, SHAPES_OF_STACKS, SILENT
 from pat3d.scene.relations import carriers_of
+from pat3d.scene.task_spec import named
 
 _ON_WORDS = re.compile(r'not (understood|modelled|heard): "([^"]*)"(?: "([^"]*)")?(?: of "[^"]*"| after "[^"]*")?')
 """A note on words: which, and what they lead to."""
@@ -176,8 +177,9 @@ def _repeats(it: Compared, note: str, others: Sequence[str]) -> bool:
 
 def _of_the_task(it: Compared, note: str) -> bool:
     """Whether `note` is on what the plan's task is made of all the same."""
-    named = {word.rstrip("s") for word in re.findall(r"[a-z]+", (it.plan.task or "").partition(":")[2])}
-    return bool(named & {word.rstrip("s") for word in _words(note)})
+    names = named(it.plan.task) if it.plan.task is not None else ()
+    told = {word.rstrip("s") for name in names for word in re.findall(r"[a-z]+", name)}
+    return bool(told & {word.rstrip("s") for word in _words(note)})
 
 
 def _words(text: str) -> list[str]:

@@ -15,9 +15,8 @@ from pat3d.plan.holders import FLAT, holds
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 from pat3d.scene.task_spec import STEPS, chain_of
 
-SEVERAL = (
-    f"the instruction is several tasks, more than a chain holds ({STEPS[0]} to {STEPS[1]}, each of another thing):"
-)
+SEVERAL = f"the instruction is several tasks that make no chain ({STEPS[0]} to {STEPS[1]}, each putting another thing somewhere):"
+"""How the note begins that lists them."""
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
 _GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
