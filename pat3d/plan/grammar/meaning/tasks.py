@@ -15,7 +15,7 @@ from pat3d.plan.holders import FLAT, holds
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 from pat3d.scene.task_spec import STEPS, chain_of
 
-SEVERAL = f"the instruction is several tasks that make no chain ({STEPS[0]} to {STEPS[1]}, each putting another thing somewhere):"
+SEVERAL = f"the instruction is several tasks that make no chain ({STEPS[0]} to {STEPS[1]}, each of another thing):"
 """How the note begins that lists them."""
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
