@@ -73,6 +73,10 @@ class Goals(Having):
         cost += 0.9 * any(fact[0] == "rel" and self._is_like(fact[3], named.heads) for fact in modifier.facts)
         # "The jar with the nuts on the tray and the jar with the figs on the shelf": one on each.
         cost += 0.3 * (len({self._noun(head) for head in named.heads}) < len(named.heads))
+        # "Apple right of tray and red cup on tray": the cup is put on the tray, and the apple is not told by it.
+        rels = [fact for fact in named.facts if fact[0] == "rel" and len(fact[3]) > 1]
+        cost += 0.6 * any(self._named_again(head, replace(named, heads=fact[3], facts=()))
+                          for fact in rels for head in modifier.heads)  # fmt: skip
         cost += sum(
             self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
         )
