@@ -146,6 +146,13 @@ class References(Members):
             return [item for group in likes for item in group.items]
         if one := self._by_place([group for group in likes if group not in besides], phrase):
             return one
+        groups = [group for group in world.groups if group not in besides and not group.replaced]
+        named, alike = ([item for group in groups if any(same(group, phrase) for same in names)
+                         for item in self._chosen(group, replace(phrase, count=None))]
+                        for names in ((same_noun,), (same_noun, same_head)))  # fmt: skip
+        if len(named) < 2 <= len(alike) and (self._all_of(at, phrase) or (phrase.plural and phrase.count == len(alike))):
+            # "A plate and a small plate. A can is behind both plates": a small plate has a noun of its own.
+            return alike
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
@@ -168,12 +175,9 @@ class References(Members):
                     found := self._chosen(group, phrase, at if self._tells_place(at) else None)
                 ):
                     return found
-        groups = [group for group in world.groups if group not in besides and not group.replaced]
-        alike = [item for group in groups if same_noun(group, phrase)
-                 for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
-        if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
+        if phrase.plural and len(named) > 1 and phrase.count in (None, len(named)):
             # "Both burners" of which one was named after the other.
-            return alike
+            return named
         for part in lexicon.BUILT_IN & {phrase.head, *singulars(phrase.head)} if phrase.definite else ():
             # "A pan is on the stove and a kettle is on the burner"
             whole = [item for item in world.items() if world.is_a(item, lexicon.PARTS_OF[part])]
