@@ -176,7 +176,7 @@ class Members(ByPlace):
             return found
         if phrase.head in ("both", "all"):
             self.all.add(at)
-            before = self._before(at)
+            before = self._that_have(at, self._before(at))
             if len(before) != 1:
                 return before
             # "A bench holds a pen and a ruler. Both are pink.", "A cup is by a jar. Both are pink.": of one are no two.
@@ -204,7 +204,7 @@ class Members(ByPlace):
                 apart = any(one & {*listed} and not {*listed} <= one for one, _ in self.related)
                 onto = any(one & {*listed} and at in other for one, other in self.related)
                 self.cost += _APART * (apart + onto)
-                return [item for head in listed for item in self.known[head]]
+                return self._that_have(at, [item for head in listed for item in self.known[head]])
             # "At each end of a desk is a lamp, a cup right of each": no cup is right of a cup.
             subject = [item for item in self._before(at) if item.group not in besides] or self._before(at)
             again = [head for head in self.known if head < at and self._chunks[head].named.each]
@@ -216,7 +216,7 @@ class Members(ByPlace):
             if len(subject) == 1 == len(subject[0].group.items) and several:
                 # "A bench with three cans on it. Behind each lies a screw.": behind each can.
                 return list(several[0].items)
-            return list(subject[0].group.items) if len(subject) == 1 else subject
+            return list(subject[0].group.items) if len(subject) == 1 else self._that_have(at, subject)
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
             groups.sort(key=lambda group: not group.phrase.some)
