@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.distribution import says_all
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.kinds import of_kind
+from pat3d.plan.grammar.meaning.kinds import called, of_kind
 from pat3d.plan.grammar.meaning.matching import ALONG, colours_of, line_up, position, same_head, same_noun, same_word
 from pat3d.plan.grammar.meaning.members import Members
 from pat3d.plan.grammar.meaning.objects import forget_count
@@ -184,6 +184,12 @@ class References(Members):
             if whole:
                 world.note(f'"{phrase.words}" is read as "{whole[-1].group.words}".')
                 return whole[-1:]
+        placed = any(at in one and self._chunks[min(other) - 1].kind != "have" for one, other in self.related if other)
+        like = called(phrase, groups) if self.asked or not placed else None
+        if like is not None and not self._elsewhere(at, like) and (found := self._chosen(like, phrase)):
+            # "A mug is on a tray. A spoon is next to the cup"; but "the cup is on a mat" may tell of another.
+            world.note(f'"{phrase.words}" is read as "{like.words}".')
+            return found
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             others = ("desk",) if phrase.head in ("shelf", "shelves") else ("shelf", "bookshelf", "bookcase")
             storage = [item for item in world.items() if world.is_a(item, lexicon.STORAGE)]
