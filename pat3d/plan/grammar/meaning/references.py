@@ -18,7 +18,7 @@ from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 
-_BUILT_ON = frozenset({"screen", "keyboard"})
+_BUILT_ON = frozenset({"screen", "keyboard", "lid"})
 """Parts that never come off, though there are things of that name too."""
 
 
@@ -231,14 +231,15 @@ class References(Members):
         return made
 
     def _own_part(self, at: int) -> Chunk:
-        """Chunk `at`, as a part where it is "its screen" behind a laptop."""
-        chunk = self._chunks[at]
-        own = chunk.phrase is not None and chunk.phrase.words.lower().startswith("its ")
-        if chunk.phrase is None or chunk.phrase.kind != "object" or not own or chunk.phrase.head not in _BUILT_ON:
+        """Chunk `at`, as a part where it is "its screen" behind a laptop, or "the lid" and no vessel is there."""
+        chunk, phrase = self._chunks[at], self._chunks[at].phrase
+        if phrase is None or phrase.kind != "object" or phrase.head not in _BUILT_ON:
             return chunk
         before = [piece.phrase.noun for piece in self._chunks[:at] if piece.phrase is not None]
         before += [group.noun for group in self._world.groups]
-        return replace(chunk, phrase=_as_part(chunk.phrase)) if self._part_of(chunk.phrase, before) else chunk
+        lid = phrase.head == "lid" and (phrase.definite or not phrase.determined)
+        own = phrase.opening == "its" or (lid and all(self._world.likely.on("lid", noun) for noun in before if noun))
+        return replace(chunk, phrase=_as_part(phrase)) if own and self._part_of(phrase, before) else chunk
 
     def _part_of(self, phrase: Phrase, owners: Sequence[str]) -> bool:
         """Whether what has one of the nouns `owners` has a part that `phrase` names."""
