@@ -262,6 +262,7 @@ THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet"
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
 """What else is below rather than beside what it is "under", where that does not stand on the floor."""
+HANGING = frozenset({"hangs", "hang", "hanging", "hung", "suspended", "dangling", "dangles"})
 OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley", "sawhorse",
     "plant stand")  # fmt: skip
