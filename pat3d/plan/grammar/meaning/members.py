@@ -254,7 +254,7 @@ class Members(ByPlace):
             alike = line is not None and any(words.colours[0] in colours_of(item) for item in line.items)
             if line is not None and (behind or not alike):
                 return self._numbered(at, line, where, phrase)
-        compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
+        compared = bool({*words.adjectives} & (_LARGER | _SMALLER | (SHAPES if phrase.definite else set())))
         if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:
