@@ -150,7 +150,8 @@ class References(Members):
         named, alike = ([item for group in groups if any(same(group, phrase) for same in names)
                          for item in self._chosen(group, replace(phrase, count=None))]
                         for names in ((same_noun,), (same_noun, same_head)))  # fmt: skip
-        if len(named) < 2 <= len(alike) and (self._all_of(at, phrase) or (phrase.plural and phrase.count == len(alike))):
+        every = self._all_of(at, phrase) or (phrase.plural and phrase.count == len(alike))
+        if every and len(named) < 2 <= len(alike):
             # "A plate and a small plate. A can is behind both plates": a small plate has a noun of its own.
             return alike
         for same in (same_noun, same_head):
