@@ -47,6 +47,8 @@ KINDS: dict[Place, frozenset[str]] = {
     "its right": frozenset({"right_of"}),
 }  # fmt: skip
 
+_CALLED = re.compile(r'"the (?:[\w-]+ )*([\w-]+)" is read as "([^"]*)"\.')
+"""The note of what a word of "the cup" means that was named by another noun before."""
 _LENGTH = re.compile(r"(?:^|\d)(?:[mcd]?m|ft|in|inch|inches|feet|foot|(?:centi|milli)?met(?:er|re)s?)$")
 """The last word of a length."""
 
@@ -80,6 +82,7 @@ class Compared:
         self.tasks = " ".join((plan.task or "", *(note for note in plan.notes if "several tasks" in note)))
         self.moved = {*_MOVED.findall(self.tasks)}
         """What the tasks move."""
+        self.called = dict(_CALLED.findall(self.quoted))
         self.edges: set[tuple[str, str, str]] = set()
         for rel in plan.relations:
             self.edges.add((rel.child, rel.kind, rel.parent))
@@ -106,6 +109,9 @@ class Compared:
             # "A computer next to a laptop", "a hamper and a laundry basket": one noun, two names.
             return own
         last = mention.text.split()[-1]
+        called = [obj for obj in self.plan.objects if obj.phrase.lower() == self.called.get(last)]
+        if called and not mention.new:
+            return called
         heads = {last, *singulars(last)}
         return [
             obj for obj in self.plan.objects

@@ -121,7 +121,8 @@ def _true(it: Compared, note: str) -> bool:
         return any(free) if len(own) > 1 else all(free) and bool(own)
     if found := re.fullmatch(r'"([^"]*)" of "([^"]*)" is left out: it is no rigid body.', note):
         own = [obj for obj in it.plan.objects if obj.phrase.lower() == found[2].lower()]
-        return bool(own) and all(found[1] in obj.noun.split() for obj in own)
+        # A wine bottle has its wine; a wine glass is empty.
+        return bool(own) and all(found[1] in obj.noun.split() and "glass" not in obj.noun for obj in own)
     if found := re.fullmatch(r'"([^"]*)" is left out: distances between objects are not planned.', note):
         return found[1].endswith(("degrees", "\u00b0")) and found[1].lower() in it.undone
     if found := re.fullmatch(r'"([^"]*)" \((left|right|in front|behind)\): there is nothing beside it .*', note):

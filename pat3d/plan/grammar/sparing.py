@@ -67,12 +67,14 @@ class Sparing(ABC):
         if not isinstance(fault, UnreadError) or isinstance(fault, UnknownNounError):
             return None
         asked = clause.manner is not None
-        there = named_only(text, clause.tokens, self._nouns, fault.number, asked=asked)
-        if there is None:
+        named = named_only(text, clause.tokens, self._nouns, fault.number, asked=asked)
+        if named is None:
             return None
+        there, missing = named
+        but = " but " * bool(missing) + ", ".join(f'"{each}"' for each in missing)
         lighter = copied(world)
         said = clause.said or quoted(text, clause.tokens[:-1])
-        lighter.note(f'not understood: "{said}"; what it names is there, and no more is made of it.')
+        lighter.note(f'not understood: "{said}"; what it names is there{but}, and no more is made of it.')
         try:
             return self._told(text, replace(clause, tokens=tuple(there), verb="", manner=None), lighter, company)
         except PromptError:

@@ -40,7 +40,6 @@ _EMPTY = frozenset({
     "did", "about", "all", "at", "there", "here", "too", "well", "as", "is", "are",
 })  # fmt: skip
 """Words that mean nothing by themselves."""
-_HANGING = frozenset({"hanging", "hung", "suspended", "dangling", "hangs", "hang", "dangles"})
 """Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
 
@@ -71,7 +70,7 @@ class Cutter(Qualities):
     def _in_context(self, word: str) -> str:
         """A verb that is left out with what it is said of, since it may have related that to something."""
         last = self._last
-        verb = word.endswith(("ing", "ed")) or word in _HANGING
+        verb = word.endswith(("ing", "ed")) or word in lexicon.HANGING
         return f'{word}" after "{last.text}' if verb and last is not None and last.kind == "noun" else word
 
     def _step(self) -> None:
@@ -164,7 +163,7 @@ class Cutter(Qualities):
             self._add("verb")
             return self._quality()
         if word in lexicon.VERBS and not (self._opens and follower == "of") and not self._names(word, follower):
-            if word in _HANGING:
+            if word in lexicon.HANGING:
                 self._made.unread.append(self._in_context(word))
             return self._add("verb")
         if self._meaningless(word, follower):
@@ -307,7 +306,7 @@ class Cutter(Qualities):
         """Whether a word that is in no chunk changes what the sentence says."""
         word = token.text
         empty = lexicon.PARTICIPLES | lexicon.COMMANDS | lexicon.ADVERBS | lexicon.DETERMINERS | _EMPTY
-        if word in _HANGING:
+        if word in lexicon.HANGING:
             return True
         return not (token.mark or word in empty or is_marked(word) or word in lexicon.MODALS | _JOINTS | ABOUT)
 

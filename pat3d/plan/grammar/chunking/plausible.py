@@ -28,6 +28,8 @@ _CLOSED_BY_LIDS = ("bottle", "teapot", "kettle", "thermos", "canister", "cookie 
                    "rice cooker", "pressure cooker", "flask", "box", "toolbox", "tube")  # fmt: skip
 """What a lid or a cap is on, besides what is hollow."""
 _POTTED, _POTS = ("plant", "potted plant", "cactus"), ("flower pot", "planter", "vase", "pot")
+_GROWING = (*_POTTED, "tree", "flower", "rose", "tulip", "succulent", "bouquet", "bush", "seed", "trowel")
+"""What one thinks of in a flower pot, the first of it planted."""
 _SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
 """Seats on which nobody leaves a cup."""
 LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
@@ -117,6 +119,8 @@ class Plausible:
             return 2.5
         if self.is_a(child, _POTTED) and self.is_a(parent, _POTS):
             return 0.0
+        if self.is_a(parent, _POTS[:2]) and not self.is_a(child, _GROWING):
+            return 0.7
         if self.hollow(parent):
             if self.is_a(parent, lexicon.NARROW):
                 if self.is_a(child, lexicon.SLENDER):

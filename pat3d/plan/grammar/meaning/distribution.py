@@ -101,11 +101,12 @@ def on_top_of_both(
 
 
 def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> list[Item]:
-    """As many of `children` for each of `owners`; of what is named by a bare plural two at least."""
+    """As many of `children` for each of `owners`; of what is named by a bare plural two at least, but one lid."""
     several = len(world.tops(owners))
     for group in _groups(children):
         if group.phrase.plural and not group.counted and group.height == 1:
-            recount(world, group, max(2, -(-len(group.items) // several)) * several)
+            one = world.is_a(group.items[0], lexicon.ON_RIMS, lexicon.BENEATH_CUPS)
+            recount(world, group, several * (1 if one else max(2, -(-len(group.items) // several))))
             group.multiplied = True
             world.note(f'"{group.words}": {len(group.items)} assumed.')
         else:

@@ -189,11 +189,11 @@ class Doing(Placing):
                 meant = "." if goes_on else '; with "the" before what is moved it is a task.'
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
             return
-        opened = parents and self._world.is_a(parents[0], tuple(lexicon.OPENED))
+        opened = parents and self._world.is_a(parents[0], tuple(lexicon.OPENED), lexicon.SHUT, lexicon.CLOSED)
         level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
         floor = bool(parents) and self._world.on_floor(parents[0])
         if link == Link(manner="goal", kind="on") and opened and children and self._clause.verb not in _SLIDING:
-            # "Move the ball to the box"
+            # "Move the ball to the box", "to the open cabinet"
             link = Link(manner="goal", kind="in")
         elif link == Link(manner="goal", kind="on") and self._clause.verb in _SLIDING and level and floor:
             # "Drag the basket over to the bed": beside it.

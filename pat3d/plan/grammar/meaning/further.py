@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
@@ -102,3 +103,22 @@ class Further(SharedOut):
         told = (head for head in before if (piece := self._chunks[head - 1]).link and piece.link.kind == link.kind)
         head = next(told, None)
         return None if head is None else self.known[head][0].group
+
+    def _that_have(self, at: int, before: Sequence[Item]) -> list[Item]:
+        """Of `before`, or of what they are in, those that may sooner have what "both" or "each" at chunk `at` have.
+
+        "The nuts are in the left jar and the bolts in the right jar, both of which have lids": the jars.
+        """
+        have, thing = (*self._chunks[at + 1 : at + 3], None, None)[:2]
+        link = have.link if have is not None else None
+        if link is None or not link.inverse or thing is None or thing.phrase is None or not thing.phrase.noun:
+            return list(before)
+        told = {item: self.ref_all(sorted(other))[:1] for one, other in self.related for item in self.ref_all([*one])}
+        edges = {item: [edge.parent] for item in before if (edge := self._world.supports.get(item)) is not None}
+        below = list(dict.fromkeys(each for item in before for each in told.get(item) or edges.get(item, [])))
+        costs = [
+            sum(self._world.likely.having(link, self._world.noun(item), thing.phrase.noun) for item in items)
+            / max(len(items), 1)
+            for items in (below, before)
+        ]
+        return below if len(below) > 1 and costs[0] < costs[1] else list(before)

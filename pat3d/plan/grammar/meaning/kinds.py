@@ -42,6 +42,25 @@ KINDS: dict[str, tuple[str, ...]] = {
     "office supply": _WRITING,
 }  # fmt: skip
 """Catalogue nouns of a kind, by the word for it."""
+CALLED: dict[str, tuple[str, ...]] = {
+    "cup": ("mug", "teacup", "coffee cup", "tea cup"), "tub": ("bathtub", "washtub"), "book": ("notebook",),
+    "bag": ("backpack", "handbag", "suitcase", "shopping bag"), "box": ("crate", "toolbox"), "chair": ("armchair",),
+    "plant": ("cactus", "succulent"), "flower": ("rose", "tulip"), "hat": ("cap", "beanie"), "ball": ("basketball",),
+    "bottle": ("flask", "thermos"), "knife": ("cleaver",), "pan": ("wok",), "bin": ("wastebasket", "trash can"),
+    "shelf": ("bookshelf",), "bird": ("owl", "penguin", "duck", "rubber duck"), "bed": ("crib",),
+}  # fmt: skip
+"""Catalogue nouns of what "the cup" may be that was named by a narrower word before."""
+
+
+def called(phrase: Phrase, groups: Sequence[Group]) -> Group | None:
+    """What "the tub" of `phrase` is of `groups` where one alone was named that may be called so: "a bathtub"."""
+    names = (phrase.said, phrase.head, *singulars(phrase.head))
+    nouns = next((CALLED[word] for word in names if word in CALLED), ())
+    like = [group for group in groups if group.noun in nouns and not group.replaced
+            and {*phrase.modifiers.colours} <= {*group.modifiers.colours}]  # fmt: skip
+    plain = len(like) == 1 and phrase.definite and not (phrase.each or phrase.some or phrase.part or phrase.other)
+    known = plain and (not like[0].phrase.definite or like[0].noun.endswith(phrase.head))
+    return like[0] if known and phrase.several == (len(like[0].items) > 1) else None
 
 
 def of_kind(phrase: Phrase, groups: Sequence[Group], left: Sequence[Item]) -> list[Item]:

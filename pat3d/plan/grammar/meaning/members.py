@@ -180,7 +180,7 @@ class Members(ByPlace):
             return found
         if phrase.head in ("both", "all"):
             self.all.add(at)
-            before = self._before(at)
+            before = self._that_have(at, self._before(at))
             if len(before) != 1:
                 return before
             # "A bench holds a pen and a ruler. Both are pink.", "A cup is by a jar. Both are pink.": of one are no two.
@@ -208,7 +208,7 @@ class Members(ByPlace):
                 apart = any(one & {*listed} and not {*listed} <= one for one, _ in self.related)
                 onto = any(one & {*listed} and at in other for one, other in self.related)
                 self.cost += _APART * (apart + onto)
-                return [item for head in listed for item in self.known[head]]
+                return self._that_have(at, [item for head in listed for item in self.known[head]])
             # "At each end of a desk is a lamp, a cup right of each": no cup is right of a cup.
             subject = [item for item in self._before(at) if item.group not in besides] or self._before(at)
             again = [head for head in self.known if head < at and self._chunks[head].named.each]
@@ -220,7 +220,7 @@ class Members(ByPlace):
             if len(subject) == 1 == len(subject[0].group.items) and several:
                 # "A bench with three cans on it. Behind each lies a screw.": behind each can.
                 return list(several[0].items)
-            return list(subject[0].group.items) if len(subject) == 1 else subject
+            return list(subject[0].group.items) if len(subject) == 1 else self._that_have(at, subject)
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
             groups.sort(key=lambda group: not group.phrase.some)
@@ -258,7 +258,7 @@ class Members(ByPlace):
             alike = line is not None and any(words.colours[0] in colours_of(item) for item in line.items)
             if line is not None and (behind or not alike):
                 return self._numbered(at, line, where, phrase)
-        compared = bool({*words.adjectives} & (_LARGER | _SMALLER))
+        compared = bool({*words.adjectives} & (_LARGER | _SMALLER | (SHAPES if phrase.definite else set())))
         if words.colours or words.palette or words.size_word or compared:
             return self._described(phrase, groups, count)
         if world.telling and len(world.telling) >= count and not where:

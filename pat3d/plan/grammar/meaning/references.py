@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.distribution import says_all
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.kinds import of_kind
+from pat3d.plan.grammar.meaning.kinds import called, of_kind
 from pat3d.plan.grammar.meaning.matching import ALONG, colours_of, line_up, position, same_head, same_noun, same_word
 from pat3d.plan.grammar.meaning.members import Members
 from pat3d.plan.grammar.meaning.objects import forget_count
@@ -18,7 +18,7 @@ from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 
-_BUILT_ON = frozenset({"screen", "keyboard"})
+_BUILT_ON = frozenset({"screen", "keyboard", "lid"})
 """Parts that never come off, though there are things of that name too."""
 
 
@@ -146,6 +146,14 @@ class References(Members):
             return [item for group in likes for item in group.items]
         if one := self._by_place([group for group in likes if group not in besides], phrase):
             return one
+        groups = [group for group in world.groups if group not in besides and not group.replaced]
+        named, alike = ([item for group in groups if any(same(group, phrase) for same in names)
+                         for item in self._chosen(group, replace(phrase, count=None))]
+                        for names in ((same_noun,), (same_noun, same_head)))  # fmt: skip
+        every = self._all_of(at, phrase) or (phrase.plural and phrase.count == len(alike))
+        if every and len(named) < 2 <= len(alike):
+            # "A plate and a small plate. A can is behind both plates": a small plate has a noun of its own.
+            return alike
         for same in (same_noun, same_head):
             for group in reversed([group for group in world.groups if not group.replaced]):
                 own = group.modifiers.colours or (group.items[0].colours or ())
@@ -168,18 +176,21 @@ class References(Members):
                     found := self._chosen(group, phrase, at if self._tells_place(at) else None)
                 ):
                     return found
-        groups = [group for group in world.groups if group not in besides and not group.replaced]
-        alike = [item for group in groups if same_noun(group, phrase)
-                 for item in self._chosen(group, replace(phrase, count=None))]  # fmt: skip
-        if phrase.plural and len(alike) > 1 and phrase.count in (None, len(alike)):
+        if phrase.plural and len(named) > 1 and phrase.count in (None, len(named)):
             # "Both burners" of which one was named after the other.
-            return alike
+            return named
         for part in lexicon.BUILT_IN & {phrase.head, *singulars(phrase.head)} if phrase.definite else ():
             # "A pan is on the stove and a kettle is on the burner"
             whole = [item for item in world.items() if world.is_a(item, lexicon.PARTS_OF[part])]
             if whole:
                 world.note(f'"{phrase.words}" is read as "{whole[-1].group.words}".')
                 return whole[-1:]
+        placed = any(at in one and self._chunks[min(other) - 1].kind != "have" for one, other in self.related if other)
+        like = called(phrase, groups) if self.asked or not placed else None
+        if like is not None and not self._elsewhere(at, like) and (found := self._chosen(like, phrase)):
+            # "A mug is on a tray. A spoon is next to the cup"; but "the cup is on a mat" may tell of another.
+            world.note(f'"{phrase.words}" is read as "{like.words}".')
+            return found
         if phrase.head in lexicon.STORAGE_PARTS and phrase.count in (None, 1) and not position(phrase):
             others = ("desk",) if phrase.head in ("shelf", "shelves") else ("shelf", "bookshelf", "bookcase")
             storage = [item for item in world.items() if world.is_a(item, lexicon.STORAGE)]
@@ -221,14 +232,15 @@ class References(Members):
         return made
 
     def _own_part(self, at: int) -> Chunk:
-        """Chunk `at`, as a part where it is "its screen" behind a laptop."""
-        chunk = self._chunks[at]
-        own = chunk.phrase is not None and chunk.phrase.words.lower().startswith("its ")
-        if chunk.phrase is None or chunk.phrase.kind != "object" or not own or chunk.phrase.head not in _BUILT_ON:
+        """Chunk `at`, as a part where it is "its screen" behind a laptop, or "the lid" and no vessel is there."""
+        chunk, phrase = self._chunks[at], self._chunks[at].phrase
+        if phrase is None or phrase.kind != "object" or phrase.head not in _BUILT_ON:
             return chunk
         before = [piece.phrase.noun for piece in self._chunks[:at] if piece.phrase is not None]
         before += [group.noun for group in self._world.groups]
-        return replace(chunk, phrase=_as_part(chunk.phrase)) if self._part_of(chunk.phrase, before) else chunk
+        lid = phrase.head == "lid" and (phrase.definite or not phrase.determined)
+        own = phrase.opening == "its" or (lid and all(self._world.likely.on("lid", noun) for noun in before if noun))
+        return replace(chunk, phrase=_as_part(phrase)) if own and self._part_of(phrase, before) else chunk
 
     def _part_of(self, phrase: Phrase, owners: Sequence[str]) -> bool:
         """Whether what has one of the nouns `owners` has a part that `phrase` names."""

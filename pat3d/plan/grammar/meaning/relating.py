@@ -298,10 +298,11 @@ class Relating:
         world.forget_guess(child, parent)
         table = world.is_a(child, ("table",)) and not world.on_floor(parent)
         rug = world.is_a(child, ("rug", "mat", "carpet", "blanket")) or not world.on_floor(parent)
-        thin = world.is_a(child, lexicon.THIN) and not table and rug
+        # "A towel hangs below the jar" is none that the jar stands on.
+        thin = world.is_a(child, lexicon.THIN) and not table and rug and not world.hanging
         if len(children) == len(parents) == 1 and may_cover(world, parent, child):
             world.arrange("under", children, parents, said.format("under"))
-        elif thin or (bears(world, child, parent) and not world.on_floor(parent)):
+        elif thin or (bears(world, child, parent) and not (world.on_floor(parent) or world.hanging)):
             slip_under(world, children, parents)
             world.place(parents, "on", children)
             world.arrange("under", children, parents)

@@ -64,6 +64,8 @@ class World:
         """What is to be emptied or cleared by what the sentence goes on with: what that moves is there before."""
         self.makes: list[Item] = []
         """What instructions have put where it is, as a scene to make: "put a cup on a tray"."""
+        self.hanging = False
+        """Whether the clause tells of what hangs, which nothing stands on."""
         self.settled = 0
         """Groups that the sentences before this one have named."""
         self.telling: list[Item] = []
@@ -96,6 +98,7 @@ class World:
     def hear(self, sentence: Sentence) -> None:
         """Keep what is set aside in `sentence`, and what may be meant otherwise there."""
         self.aside += [said for said in sentence.aside if said not in self.aside]
+        self.hanging = any({*said.split('"')} & lexicon.HANGING for said in sentence.unread)
         for doubt in sentence.doubts:
             self.note(doubt)
 

@@ -8,6 +8,9 @@ from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.parsing.having import Having
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
+NO_DETERMINER = 0.9
+"""Cost of one thing without "a" that does not share that of what stands directly before it."""
+
 
 class Goals(Having):
     """Rules that only instructions have."""
@@ -16,8 +19,12 @@ class Goals(Having):
     """Whether "on" behind what is moved says where it is to go: "put the cup on the tray"."""
 
     def _goals(self, first: Node, second: Node) -> Node:
-        """Read "the forks in the drawer" + ", the plates on the rack"."""
-        return replace(first, cost=first.cost + second.cost + 0.1, facts=(*first.facts, *second.facts))
+        """Read "the forks in the drawer" + ", the plates on the rack".
+
+        "The lamp next to the fork and knife on the tray" has both on the tray.
+        """
+        cost = first.cost + second.cost + 0.1 + NO_DETERMINER * self._shares_determiner(first, second)
+        return replace(first, cost=cost, facts=(*first.facts, *second.facts))
 
     def _further(self, goal: Node, modifier: Node) -> Node | None:
         """Read "it on the table" + "in front of the bowl": a second word on where it is to go."""
@@ -73,6 +80,10 @@ class Goals(Having):
         cost += 0.9 * any(fact[0] == "rel" and self._is_like(fact[3], named.heads) for fact in modifier.facts)
         # "The jar with the nuts on the tray and the jar with the figs on the shelf": one on each.
         cost += 0.3 * (len({self._noun(head) for head in named.heads}) < len(named.heads))
+        # "Apple right of tray and red cup on tray": the cup is put on the tray, and the apple is not told by it.
+        rels = [fact for fact in named.facts if fact[0] == "rel" and len(fact[3]) > 1]
+        cost += 0.6 * any(self._named_again(head, replace(named, heads=fact[3], facts=()))
+                          for fact in rels for head in modifier.heads)  # fmt: skip
         cost += sum(
             self._link(fact[1]).manner == "goal" for fact in (*named.facts, *modifier.facts) if fact[0] == "rel"
         )
@@ -86,3 +97,11 @@ class Goals(Having):
     def _is_like(self, heads: tuple[int, ...], moved: tuple[int, ...]) -> bool:
         """Whether `heads` are "the other cups" beside which a cup, `moved`, is to go."""
         return all(self._phrase(head).other and self._noun(head) == self._noun(moved[0]) for head in heads)
+
+    def _shares_determiner(self, first: Node, rest: Node) -> bool:
+        """Whether `rest` has no "a" of its own and stands directly behind what has one and is said of `first`."""
+        before, behind = self._chunks[rest.start - 1].phrase, self._phrase(rest.heads[0])
+        if before is None or rest.start - 1 in first.heads or behind.kind != "object":
+            return False
+        bare = not (behind.determined or behind.plural or behind.count) and not behind.modifiers.colours
+        return bare and (before.determined or before.possessive) and self._phrase(first.heads[0]).determined

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pat3d.plan.grammar.parsing.chart import Node
-from pat3d.plan.grammar.parsing.goals import Goals
+from pat3d.plan.grammar.parsing.goals import NO_DETERMINER, Goals
 from pat3d.plan.grammar.parsing.judging import HEADLESS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import Link
@@ -13,8 +13,6 @@ _HAD_TOGETHER = 0.3
 """Cost of parting what is "on it" from what stands before it behind the same "with"."""
 _DANGLES = 0.4
 """Cost of what stands at the end of a clause, behind a landmark, and is not beside anything."""
-NO_DETERMINER = 0.9
-"""Cost of one thing without "a" that does not share that of what stands directly before it."""
 
 
 def _list_cost(joints: str) -> float:
@@ -127,8 +125,8 @@ class Listing(Goals):
         if mark in "&," and self._ends_what_is_had(first, rest):
             # "A board lies on a bench with a knife and a lemon on it (and a cup beside it)": both are on the board.
             cost += _HAD_TOGETHER
-        if rest.joints == "&" and self._shares_determiner(first, rest):
-            # "A drill lies next to its battery and charger": it is next to both.
+        if rest.joints[-1] in "&;" and self._shares_determiner(first, rest):
+            # "A drill lies next to its battery and charger", "next to the saw, drill and charger": next to them all.
             cost += NO_DETERMINER
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
@@ -173,11 +171,3 @@ class Listing(Goals):
         had = any(fact[0] == "have" and max(fact[3]) == rest.start - 1 for fact in first.facts)
         placed = [fact for fact in rest.facts if fact[0] == "rel" and fact[2] == rest.heads[: len(fact[2])]]
         return had and any(self._link(fact[1]).kind in SUPPORT_KINDS and self._is_pronoun(fact[3]) for fact in placed)
-
-    def _shares_determiner(self, first: Node, rest: Node) -> bool:
-        """Whether `rest` has no "a" of its own and stands directly behind what has one and is said of `first`."""
-        before, behind = self._chunks[rest.start - 1].phrase, self._phrase(rest.heads[0])
-        if before is None or rest.start - 1 in first.heads or behind.kind != "object":
-            return False
-        bare = not (behind.determined or behind.plural or behind.count) and not behind.modifiers.colours
-        return bare and (before.determined or before.possessive) and self._phrase(first.heads[0]).determined

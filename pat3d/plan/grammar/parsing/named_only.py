@@ -32,8 +32,10 @@ _COUNTING = frozenset({
 
 def named_only(
     text: str, tokens: Sequence[Token], nouns: Nouns, number: int, *, asked: bool = False
-) -> list[Token] | None:
+) -> tuple[list[Token], list[str]] | None:
     """The things that `tokens` of one sentence name as "there is a cup and a plate"; None where that is not all.
+
+    Second are phrases of what is not made, as "the yellow heart".
 
     Word `number` of the prompt is where its reading fails. What is `asked` for has lost its verb.
     """
@@ -48,7 +50,7 @@ def named_only(
     ):
         return None
     reader = PhraseReader(text, [*tokens, *[tokens[-1]] * (LONGEST_LINK + 4)], nouns)
-    told: list[Token] = []
+    told, missing = list[Token](), list[str]()
     known: set[tuple[str, Modifiers]] = set()
     at = 0
     while at < len(tokens) - 1:
@@ -62,11 +64,13 @@ def named_only(
             if not (read[0].definite and known & {thing, (thing[0], NO_MODIFIERS)}):
                 told += [replace(tokens[at], text="and"), *tokens[at : read[1]]]
             known |= {thing, (thing[0], NO_MODIFIERS)} if thing[1] == NO_MODIFIERS else {thing}
+        elif read is not None and read[0].kind == "unknown" and read[0].determined:
+            missing.append(read[0].words)
         at += len(words)
     if not told or not (asked or has_verb(tokens, nouns)):
         return None
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
-    return [*there, *told[1:], tokens[-1]]
+    return [*there, *told[1:], tokens[-1]], missing
 
 
 def has_verb(tokens: Sequence[Token], nouns: Nouns) -> bool:

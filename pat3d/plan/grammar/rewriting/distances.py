@@ -23,7 +23,6 @@ _WAYS = lexicon.DIRECTIONS | {"up", "down", "upward", "upwards", "downward", "do
                               "away", "and", "then", "apart"}  # fmt: skip
 _PARTS = frozenset({"edge", "edges", "side", "sides", "corner", "end", "top", "bottom", "base", "left", "right",
                     "front", "back", "rear", "rim", "middle", "center", "centre", "foot", "tip"})  # fmt: skip
-_HANGING = frozenset({"hangs", "hang", "hanging", "hung", "suspended", "dangling", "dangles"})
 
 
 def with_distances(text: str, clause: Clause) -> Clause:
@@ -62,7 +61,7 @@ def _apart(clause: Clause, tokens: Sequence[Token]) -> list[Token]:
             not away
             or clause.verb in _RAISING
             or _from_a_part(tokens, at + 1)
-            or _HANGING & {one.text for one in tokens[:at]}
+            or lexicon.HANGING & {one.text for one in tokens[:at]}
         ):
             made.append(token)
             continue

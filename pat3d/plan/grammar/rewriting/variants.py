@@ -356,7 +356,8 @@ def _one_adjective(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         led = at and tokens[at - 1].text in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
         after = tokens[min(at + 2, len(tokens) - 1)]
         whole = after.mark or is_modifier(after.text) or nouns.match([after.text])
-        if word == "half" and whole and tokens[end].text.endswith(("ed", "en")) and base_verb(tokens[end].text):
+        state = tokens[end].text if word == "half" and whole else ""
+        if state.endswith(("ed", "en")) and state != "open" and base_verb(state):
             end += 1
             made.append(replace(tokens[at], text=f"half-{tokens[end - 1].text}", end=tokens[end - 1].end))
             at = end

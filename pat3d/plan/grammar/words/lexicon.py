@@ -262,6 +262,7 @@ THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet"
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
 """What else is below rather than beside what it is "under", where that does not stand on the floor."""
+HANGING = frozenset({"hangs", "hang", "hanging", "hung", "suspended", "dangling", "dangles"})
 OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "workbench", "bench", "chair", "stool",
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley", "sawhorse",
     "plant stand")  # fmt: skip
@@ -362,7 +363,8 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
 PARTS_OF: dict[str, tuple[str, ...]] = {
     "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
     "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
-    "keyboard": ("laptop",), "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
+    "keyboard": ("laptop",), "lid": ("laptop", "piano", "grill", "toilet", "printer", "treasure chest"),
+    "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
     "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
     "stand": ("globe", "monitor"), "flower": ("plant", "potted plant", "cactus", "tree", "bush"),
     **dict.fromkeys(("mantelpiece", "mantel", "mantle", "hearth"), ("fireplace",)),
