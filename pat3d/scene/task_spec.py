@@ -56,8 +56,8 @@ def chain_of(steps: Sequence[str]) -> str | None:
     moved = [names[1] for names in told if len(names) > 1]
     kinds = [names[0] for names in told]
     puts = all(kind in PUTTING for kind in kinds[:-1]) and (not kinds or kinds[-1] in PUTTING | {"pick"})
-    # What is beside something that is moved as well was put beside where that was.
-    astray = any(step[0] == "beside" and step[3] in moved for step in told)
+    # What is put beside something that is moved later is beside it no more.
+    astray = any(step[0] == "beside" and step[3] in moved[at:] for at, step in enumerate(told))
     if not fewest <= len(steps) <= most or not puts or astray or len({*moved}) < len(steps):
         return None
     return f"{CHAIN}:{AND_THEN.join(steps)}"
