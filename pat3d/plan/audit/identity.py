@@ -219,6 +219,9 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
     """What the catalogue makes as another thing that goes by its name in other company: the washer on a bolt."""
     for obj in it.plan.objects:
         words = re.findall(r"[a-z]+", obj.phrase.lower())
+        if any(f'"{obj.phrase.lower()}" is {told}' in it.quoted for told in ("made", "read")):
+            # "A rice cake" that is made as a cookie says so.
+            continue
         for said, company in _NAMESAKES.items():
             name = said.split()
             at = next((n for n in range(len(words)) if words[n : n + len(name)] == name or
@@ -234,9 +237,7 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
                 yield it.said.words.index(words[-1]), f'"{said}" is made as one to wear'
         alone = _BARE & {words[-1], *singulars(words[-1])} if words and not {*obj.noun.split()} & {*words} else ()
         for said in sorted(alone):
-            told = (f'"{obj.phrase.lower()}" is made', f'"{obj.phrase.lower()}" is read')
-            if not any(note in it.quoted for note in told):
-                yield 0, f'"{said}" is made as a "{obj.noun}"'
+            yield 0, f'"{said}" is made as a "{obj.noun}"'
 
 
 def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
