@@ -41,11 +41,10 @@ _TENS = re.compile(r".*(teen|ty)|twenty-.*|hundred")
 _TOOLS = "hammer saw chisel drill wrench screwdriver pliers workbench toolbox plank rasp clamp vise sandpaper"
 _NAMESAKES = {
     "washer": "bolt bolts nut nuts screw screws wrench spanner hardware toolbox tray",
-    "file": f"{_TOOLS} binder", "wood plane": "", "plane": _TOOLS, "letter": "envelope envelopes",
+    "file": f"{_TOOLS} binder", "plane": _TOOLS, "letter": "envelope envelopes",
     "glove": "bat baseball ball", "clip": "paper papers document documents page",
     "computer": "laptop laptops tablet", "keys": "piano", **dict.fromkeys(("rice", "pasta", "noodles"), ""),
     "soup": "ladle platter crackers spoon salad", "red bull": "cow cows farm barn field horse sheep pasture fence",
-    **dict.fromkeys(("chess king", "chess queen", "chess rook", "chess bishop", "chess knight", "pine cone"), ""),
 }  # fmt: skip
 """Names of things that the catalogue has by another name only, and in what company they are meant; empty in any."""
 _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}

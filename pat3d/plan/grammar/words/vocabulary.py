@@ -24,7 +24,6 @@ _ALIASES = {
        ("red bull", "redbull", "pepsi", "sprite", "fanta", "7up", "coca cola", "coca-cola", "coke cola")},
     "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat",
     "sweet pepper": "bell pepper", "candelabra": "candlestick", "platter": "plate",
-    **dict.fromkeys(("chess king", "chess queen", "chess rook", "chess bishop", "chess knight"), "chess pawn"),
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
 _NO_SLIPS = frozenset({"stair", "stock", "sconce", "breaker", "blinder", "tuner", "caster", "chord", "bowel", "maker",
