@@ -29,8 +29,8 @@ NAMED_SO = {"ice cube", "grapefruit", "lettuce", "display", "spice rack"}
 """What the catalogue makes as another thing without a word."""
 TWO_SENSES = {"straw", "skewer", "display", "chicken"}
 """A thing as well as a material, a verb or a place, or told by its company."""
-OWN_IN_PLURAL = {"cracker", "tea bag", "facial tissue", "pipette tip", "earphone", "display"}
-"""What the catalogue has a noun for where there are several, mostly a packet."""
+OWN_IN_PLURAL = {"deer", "cracker", "tea bag", "facial tissue", "pipette tip", "earphone", "display"}
+"""What the catalogue has a noun for where there are several, mostly a packet; and what has no plural of its own."""
 WORDS = (lexicon.VERBS, lexicon.PARTICIPLES, lexicon.ADVERBS, lexicon.COMMANDS, lexicon.SIZES, lexicon.SUBSTANCES,
          lexicon.PARTS, lexicon.POSITIONS, lexicon.DETERMINERS, lexicon.COLLECTIVES, lexicon.GENERICS)  # fmt: skip
 
