@@ -14,7 +14,7 @@ PLANNER = GrammarPlanner()
         ("Wipe plate with blue towel", ["plate", "towel"]),
         ("scrub sink with sponge", ["sink", "sponge"]),
         ("stir pot with spoon", ["pot", "spoon"]),
-        ("Wipe whiteboard with sponge", ["plank", "sponge"]),
+        ("Wipe whiteboard with sponge", ["cardboard sheet", "sponge"]),
         ("Pick up sponge and wipe shoe", ["sponge", "shoe"]),
     ],
 )

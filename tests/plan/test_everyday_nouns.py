@@ -94,7 +94,7 @@ def test_a_dome_stands_over_what_is_under_it_as_it_is_made(word: str) -> None:
         ("A doily lies under a vase.", "placemat, vase", '"A doily" is made as a "placemat".'),
         ("Two eggs in a vessel.", "bowl, egg, egg", '"a vessel" is made as a "bowl".'),
         ("A roll of foil on a counter.", "counter, paper towel", '"A roll of foil" is made as a "paper towel".'),
-        ("A straw in a glass.", "glass, rod", '"A straw" is made as a "rod".'),
+        ("A straw in a glass.", "glass, rod", '"A straw" is made as a "rod" of 0.2 m.'),
         ("A table runner on a table.", "table, towel", '"A table runner" is made as a "towel".'),
     ],
 )

@@ -24,6 +24,7 @@ from pat3d.plan.grammar.words.modifiers import (
     read_modifiers,
 )
 from pat3d.plan.grammar.words.senses import SENSES, sense
+from pat3d.plan.grammar.words.stand_ins import STAND_INS
 
 _JOINED = (
     ("along", "with"), ("together", "with"), ("as", "well", "as"), ("accompanied", "by"), ("next", "comes"),
@@ -236,6 +237,9 @@ class Cutter(Qualities):
         others = {one.text for one, head in pairwise(self._tokens) if head.text == phrase.head}
         noun = sense(phrase.noun, set(self._company) - others, senses)
         said = phrase.head if noun == "sunglasses" else noun if noun not in (phrase.noun, "pillow") else phrase.said
+        if said == noun:
+            # "Drumsticks on a drum" are what stands in for drum sticks, in their size.
+            said = next((name for name, _ in meanings if name in STAND_INS and self._nouns.resolve(name) == noun), said)
         return replace(
             phrase, noun=noun, said=said, count=1 if noun == "sunglasses" and phrase.count is None else phrase.count
         )

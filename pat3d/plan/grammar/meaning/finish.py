@@ -13,6 +13,7 @@ from pat3d.plan.grammar.words.lexing import normalise, singulars, tokenise
 from pat3d.plan.grammar.words.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.words.modifiers import Modifiers
 from pat3d.plan.grammar.words.postures import is_held, kind_of, stands_on_edge
+from pat3d.plan.grammar.words.stand_ins import STAND_IN_SIZES
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.plan.scene_plan import Arrangement, Extent, PlannedObject, Posture, ScenePlan
 from pat3d.scene.relations import GROUND, RELATION_WORDS, LateralKind, Relation
@@ -267,6 +268,8 @@ def _objects(world: World, nouns: Nouns) -> dict[Item, PlannedObject]:
                 noun = nouns.resolve(said) or said
             colours = item.colours if item.colours is not None else words.colours
             size = item.told.size_word or words.size_word
+            # "A big balloon" is larger than a balloon, not than the ball that stands in.
+            scale, usual = words.scale * item.told.scale, STAND_IN_SIZES.get(said)
             shown = [colour for colour in colours[:3] if colour not in said.split()]
             material = words.material_word
             material = "" if material in said.split() or material == size else material
@@ -275,7 +278,7 @@ def _objects(world: World, nouns: Nouns) -> dict[Item, PlannedObject]:
             planned = PlannedObject(
                 name=name, noun=noun, phrase=group.words, colours=colours,
                 material=words.material or ("plush" if group.cycle and soft else None),
-                scale=words.scale * item.told.scale, extent=extent,
+                scale=scale, extent=extent or (Extent(metres=usual * scale) if usual else None),
                 adjectives=tuple(dict.fromkeys((*words.adjectives, *item.told.adjectives))), proxy=group.proxy,
             )  # fmt: skip
             made.append((item, name, planned))

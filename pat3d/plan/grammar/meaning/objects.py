@@ -26,8 +26,9 @@ from pat3d.plan.grammar.words.modifiers import (
     looks_like_adjective,
 )
 from pat3d.plan.grammar.words.senses import TWOFOLD
+from pat3d.plan.grammar.words.stand_ins import STAND_IN_SIZES, STAND_INS
 from pat3d.plan.grammar.words.unmade import base_verb, is_no_noun, is_quality, makes_nothing
-from pat3d.plan.grammar.words.vocabulary import STAND_INS, Nouns
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 if TYPE_CHECKING:
     # Who reads a sentence without a server waits for no numpy.
@@ -73,7 +74,9 @@ class Maker:
         if count > 1 and phrase.said in ("grape", "grapes"):
             world.note(f'"{phrase.words}": every one of the {count} is made as a bunch.')
         if {phrase.head, said} & (TWOFOLD - {noun}) or said in STAND_INS:
-            world.note(f'"{phrase.words}" is made as a "{noun}".')
+            size, scale = STAND_IN_SIZES.get(said), phrase.modifiers.scale
+            measured = f" of {size * scale:.2g} m" if size and not phrase.modifiers.measures else ""
+            world.note(f'"{phrase.words}" is made as {"an" if noun[0] in "aeiou" else "a"} "{noun}"{measured}.')
         if phrase.left_out:
             world.note(f'"of {phrase.left_out}" is left out of "{phrase.words}".')
         if phrase.substance:

@@ -21,6 +21,7 @@ _IRREGULAR = {
     "scarves": "scarf", "wolves": "wolf", "geese": "goose", "feet": "foot", "teeth": "tooth", "children": "child",
     "men": "man", "women": "woman", "people": "person", "dice": "die", "cacti": "cactus", "wives": "wife",
     "calves": "calf", "elves": "elf", "oxen": "ox", "bookshelves": "bookshelf", "snowmen": "snowman", "tvs": "tv",
+    "cds": "cd",
 }  # fmt: skip
 _SPELLED = {
     word: str(number) for number, word in enumerate(

@@ -64,6 +64,14 @@ SENSES: dict[str, tuple[tuple[str, str], ...]] = {
         ("washing machine", "laundry detergent dryer clothes"),
         ("steel washer", "bolt nut screw nail wrench hardware"),
     ),
+    "drumstick": (
+        ("chicken leg", "plate dish sauce fries bone"),
+        ("drum stick", "drum cymbal tambourine guitar music"),
+    ),
+    "chicken": (
+        ("chicken", "plate dish pan tray"),
+        ("hen", "cow pig sheep horse goat farm barn rooster tractor nest"),
+    ),
     "nut": (
         ("nut", "bolt screw wrench"),
         ("walnut", "bowl walnut fruit cracker"),

@@ -9,37 +9,9 @@ from typing import Any, Protocol
 
 from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.stand_ins import STAND_INS
 from pat3d.scene.naming import APART
 
-STAND_INS = {
-    **dict.fromkeys(("toast", "french toast"), "bread"), "ham": "meat", "cheesecake": "cake", "cracker": "cookie",
-    "panini": "sandwich", "taco": "burrito", "dumpling": "bun", **dict.fromkeys(("omelet", "omelette"), "pancake"),
-    **dict.fromkeys(("peanut", "almond", "hazelnut", "pecan", "cashew"), "walnut"), "cauliflower": "cabbage",
-    **dict.fromkeys(("beet", "beetroot", "turnip"), "radish"), **dict.fromkeys(("toothpick", "skewer"), "stick"),
-    **dict.fromkeys(("cocktail", "smoothie", "milkshake"), "glass"), "french press": "coffee pot",
-    "tablecloth": "towel", "ashtray": "ramekin", "tweezers": "tongs", "packet": "box", "cooler": "storage box",
-    **dict.fromkeys(("keyring", "key ring", "keychain", "key chain"), "key"), "shorts": "jeans",
-    **dict.fromkeys(("sandal", "flip-flop", "flip flop"), "slipper"), **dict.fromkeys(("crib", "cot"), "bed"),
-    **dict.fromkeys(("racket", "tennis racket", "badminton racket"), "ping pong paddle"), "map": "newspaper",
-    "poster": "cardboard sheet", "passport": "notebook", "piggy bank": "pig", "medal": "coin",
-    **dict.fromkeys(("microscope slide", "glass slide"), "card"), "ice cream cone": "ice cream",
-    "banana split": "ice cream", "hand truck": "cart", **dict.fromkeys(("bandage", "band-aid"), "bandage box"),
-    **dict.fromkeys(("bean bag", "beanbag"), "floor cushion"), "snow globe": "crystal ball",
-    "ice cube": "sugar cube", "grapefruit": "orange", "lettuce": "cabbage", "display": "monitor",
-    **dict.fromkeys(("violin", "fiddle", "cello", "ukulele", "banjo", "mandolin", "electric guitar", "bass guitar"),
-                    "guitar"),
-    **dict.fromkeys(("trombone", "saxophone", "french horn", "tuba"), "trumpet"),
-    **dict.fromkeys(("tricycle", "scooter", "kick scooter"), "bicycle"), "canvas": "picture frame",
-    **dict.fromkeys(("wheelbarrow", "stroller", "pram", "baby carriage"), "cart"),
-    **dict.fromkeys(("reel", "fishing reel", "film reel", "cable reel"), "spool"),
-    **dict.fromkeys(("foil roll", "aluminum foil", "aluminium foil", "tin foil", "wrapping paper", "fabric roll",
-                     "paper roll", "plastic wrap", "cling film"), "paper towel roll"),
-    **dict.fromkeys(("shaving foam", "shaving cream", "hair spray", "hairspray", "deodorant"), "spray can"),
-    **dict.fromkeys(("table runner", "runner"), "towel"), "doily": "placemat", "vessel": "bowl",
-    **dict.fromkeys(("straw", "drinking straw", "flute", "clarinet", "fishing rod"), "rod"),
-    "softener": "detergent bottle", "dog collar": "belt", "socket": "wrench socket", "wagon": "toy wagon",
-}  # fmt: skip
-"""Ordinary things that no source has, and what is so like them in kind or shape that it stands in: a note says so."""
 _ALIASES = {
     **STAND_INS,
     "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
@@ -52,9 +24,11 @@ _ALIASES = {
        ("red bull", "redbull", "pepsi", "sprite", "fanta", "7up", "coca cola", "coca-cola", "coke cola")},
     "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat",
     "sweet pepper": "bell pepper", "candelabra": "candlestick", "platter": "plate",
-    **dict.fromkeys(("chess king", "chess queen", "chess rook", "chess bishop", "chess knight"), "chess pawn"),
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
+_NO_SLIPS = frozenset({"stair", "stock", "sconce", "breaker", "blinder", "tuner", "caster", "chord", "bowel", "maker",
+    "saver", "pluck", "shove", "planet", "sprig", "thicket", "cartoon", "taster", "hover"})  # fmt: skip
+"""Words of their own, each a letter away from a noun: stairs are no stars."""
 _LONG_ENOUGH = 5
 """Letters of a word that is recognised though misspelled."""
 
@@ -140,16 +114,16 @@ class Nouns:
             return None
         spelled = " ".join(words)
         known = self._vocabulary.find(spelled)
-        for name in self._singular(words):
+        for name in (spelled, *self._singular(words)):
             single = self._vocabulary.find(name)
-            if single is not None and (known is None or known.noun == single.noun):
+            if single is not None and name != spelled and (known is None or known.noun == single.noun):
                 # A plural that is itself a synonym ("shelves" for a shelving unit) names one object.
                 whole = known is not None and spelled not in known.plurals
                 # "A pile of papers" is one pile.
                 one = "of" in words and name.split()[0] == words[0]
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not (whole or one))
-        for name in (spelled, *self._singular(words)) if known is None else ():
-            if name in _ALIASES and (found := self.match(_ALIASES[name].split())):
+            # Of the guesses the likelier first: capes are no caps.
+            if known is None and name in _ALIASES and (found := self.match(_ALIASES[name].split())):
                 return Match(noun=found.noun, said=name, plural=name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
@@ -180,6 +154,7 @@ class Nouns:
                     and self.own(found.noun)
                     and is_modifier(words[-size])
                     and words[-size] not in found.noun.split()
+                    and found.said not in STAND_INS
                     and (plain := self.match(words[1 - size :]))
                 ):
                     if plain.noun != found.noun:
@@ -209,7 +184,7 @@ class Nouns:
 
     def resolve(self, name: str) -> str | None:
         """Catalogue noun that `name` means, or None."""
-        known = self._vocabulary.find(name)
+        known = self._vocabulary.find(name) or self._vocabulary.find(STAND_INS.get(name, ""))
         return None if known is None else known.noun
 
     def own(self, noun: str) -> bool:
@@ -231,9 +206,10 @@ class Nouns:
         doubled = f"{word}{word[-1:]}"
         if len(word) < _LONG_ENOUGH and self.match([doubled]) and not self.match([word]):
             return (doubled,)
-        if len(word) < _LONG_ENOUGH or not word.isalpha():
+        if len(word) < _LONG_ENOUGH or not word.isalpha() or {word, *singulars(word)} & _NO_SLIPS:
             return ()
-        for name in self.nearest(word):
+        near = difflib.get_close_matches(word, STAND_INS, n=3, cutoff=0.8) if len(word) > _LONG_ENOUGH else ()
+        for name in (*self.nearest(word), *near):
             if any(_slipped(word, spelled) for spelled in (name, f"{name}s")):
                 return (name if word[-1] != "s" or name[-1] == "s" else f"{name}s",)
         for at in range(3, len(word) - 2):
