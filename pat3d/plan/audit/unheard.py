@@ -125,7 +125,9 @@ def _shapes(it: Compared) -> frozenset[str]:
         frozenset({"alternate", "alternates", "alternately", "alternating"} if alternating else ())
         | frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles", "stacks", "high"} if stacked else ())
+        | frozenset({"tower", "towers", "piles", "stacks", "high", "vertically"} if stacked else ())
+        | {one.said for one in it.plan.postures}
+        | frozenset({"vertically"} if "dish rack" in nouns.values() else ())
         | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())

@@ -219,7 +219,7 @@ stack pile top middle center centre edge corner end left right front back first 
 complete featuring including objects items things everything others exactly about well together somewhere what shown
 seen should must need i'd give following features color immediate amidst belongs belong leave keep needs need goes go
 upside upright head facing
-faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
+faces face turned turn wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest biggest bigger smaller larger
 bottom upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us
 would

@@ -98,6 +98,10 @@ class Having(Judging):
             self._chunks[fact[1]].text: fact[2] for fact in facts
             if fact[0] == "place" and fact[2] == (fact[1] - 1,) and {"its", "their"} & {*self._chunks[fact[1]].words}
         }  # fmt: skip
+        stands = landmark and self._chunks[owners[0] - 2].kind == "verb"
+        if sides and stands and self._link(owners[0] - 1).kind in LATERAL_KINDS:
+            # "A fork lies beside the plate with a spoon to its right": of the fork.
+            cost += _LANDMARKS
         # "each with a fork to its left and a knife to its right": of the same plate.
         cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys() and link.manner != "of")
         wears = self._chunks[at].words[0] == "wearing"

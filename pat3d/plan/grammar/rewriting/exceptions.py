@@ -7,13 +7,15 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.lexing import Span, Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_colour_word
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.unmade import base_verb
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _EXCEPT = (("except", "for"), ("apart", "from"), ("but", "for"), ("save", "for"), ("except",), ("but",), ("save",))
+_LISTING = frozenset({",", "and", "a", "an", "the", "some", "several"})
 _SAVE = frozenset({"except", "save", "excepting", "only"})
 
 
@@ -21,6 +23,67 @@ def exceptions(told: list[list[Token]]) -> list[list[Token]]:
     """The sentences `told` with what is excepted in a sentence of its own."""
     plain = [each for at, sentence in enumerate(told) for each in _of_others(_but(sentence), told[:at])]
     return [each for sentence in plain for each in (_coloured(sentence) or _described(sentence) or _asked(sentence))]
+
+
+def coloured_alike(sentence: list[Token], nouns: Nouns) -> list[Token]:
+    """Tell "a shelf of jars, all red" as "a shelf of red jars", ", all red except one blue" with a blue one beside."""
+    words = [token.text for token in sentence]
+    for at in range(2, len(words) - 2):
+        if words[at] != "," or words[at + 1] not in ("all", "both", "each"):
+            continue
+        start = at + 2
+        for said in (["of", "them"], ["of", "which"], ["are"]):
+            start += len(said) * (words[start : start + len(said)] == said)
+        end = next(n for n in range(start, len(words)) if not (is_colour_word(words[n]) or words[n] == "and"))
+        size = next((len(said) for said in _EXCEPT if tuple(words[end : end + len(said)]) == said), 0)
+        one = words[end + size] == "one" and size
+        stop = end + size + 1 + is_colour_word(words[end + size + 1]) if one else end
+        names = _spoken_of(sentence[:at], nouns)
+        if end == start or not sentence[stop].mark or not names or (one and len(names) > 1):
+            continue
+        made, before = list[Token](), 0
+        for first, last in names:
+            hue = [replace(each, start=sentence[first].start, end=sentence[first].start) for each in sentence[start:end]]
+            made += [*sentence[before:first], *hue, *sentence[first:last]]
+            before = last
+        if one:
+            first, last = names[0]
+            lead = len(made) - (last - first) - (end - start) - 1
+            if words[first - 1] == "of" and nouns.match(words[first - 2 : first - 1]):
+                # The blue one of "a crate of jars" is in the crate as well.
+                made[lead] = replace(made[lead], text="with")
+            if (total := numeral(words[first - 1])) > 1:
+                made[lead] = replace(made[lead], text=str(total - 1))
+            single = [*sentence[first : last - 1], replace(sentence[last - 1], text=singulars(words[last - 1])[0])]
+            said = [replace(sentence[end], text="and"), *sentence[end + size : stop]]
+            made += [*said, *(replace(each, start=said[-1].end, end=said[-1].end) for each in single)]
+        return [*made, *sentence[before:at], *sentence[stop:]]
+    return sentence
+
+
+def _spoken_of(sentence: Sequence[Token], nouns: Nouns) -> list[Span]:
+    """The names in `sentence` of what "all" means: the first list of several, what is had before what has it."""
+    words, at = [token.text for token in sentence], 0
+    lists: list[list[Span]] = []
+    several: list[bool] = []
+    joined = had = False
+    while at < len(words):
+        size = next((n for n in (3, 2, 1) if nouns.match(words[at : at + n]) and at + n <= len(words)), 0)
+        if size and not is_colour_word(words[at]):
+            many = bool((found := nouns.match(words[at : at + size])) and found.plural)
+            if joined:
+                lists[-1].append((at, at + size))
+                several[-1] = True
+            elif had or not any(several):
+                lists.append([(at, at + size)])
+                several.append(many)
+            joined = True
+        else:
+            plain = words[at] in _LISTING or numeral(words[at]) or is_modifier(words[at])
+            had = words[at] in ("with", "of") or words[at] in lexicon.HAVING if not plain else had
+            joined = joined and bool(plain)
+        at += size or 1
+    return next((each for each, many in zip(reversed(lists), reversed(several), strict=True) if many), [])
 
 
 def _but(sentence: list[Token]) -> list[Token]:
