@@ -378,11 +378,7 @@ class Relating:
             # "A bird stands on the back of an elephant": an animal's back is its top.
             self.relate(children, Link(kind="on"), parents)
             return
-        # "A lamp on the left side of the bed": few things stand on what is soft.
-        by_it = world.is_a(parent, ("bed", "sofa", "armchair")) and (
-            world.is_a(children[0], lexicon.BY_A_SEAT) or world.likely.hollow(world.noun(children[0]))
-        )
-        on_it = level and not (world.on_floor(children[0]) or by_it)
+        on_it = level and not world.likely.stands_by(world.noun(children[0]), world.noun(parent))
         if on_it and side in ("left", "right") and said and "side" not in said.split():
             world.note(
                 f'"{children[0].group.words}" {said} "{parent.group.words}": on it; "to the {side} of" has it beside.'

@@ -51,7 +51,7 @@ _UNSEEN = frozenset({"can't", "cannot", "won't", "isn't", "aren't", "not", "does
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, _style, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state, _labels, in_turn,
+    for told in (choice, _style, _stuffs, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state, _labels, in_turn,
                  _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun, ways.often,
                  ways.until, ways.parallel, ways.leaping):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
@@ -86,6 +86,22 @@ def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
         end = next(n for n in begun if tokens[n].mark or words[n] in FINITE or _goes_on(tokens, n, nouns))
         return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
+
+
+def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a cosy bedroom in charcoal, leather and oak" as "a cosy bedroom": nobody says where that is."""
+    at = next((n for n in range(1, min(len(words) - 2, 8)) if words[n] == "in" and words[n - 1] in lexicon.BACKGROUND), 0)
+    said = words[at + 1 : -1]
+    told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | FINITE
+    plain = {",", "and"} & {*said} and not told & {*said} and all(len(run.split()) < 3 for run in _runs(said))
+    if not at or not plain or any(link_at(tokens, n) for n in range(at + 1, len(words))):
+        return None
+    return [*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])]
+
+
+def _runs(words: Sequence[str]) -> list[str]:
+    """What stands between the joints of a list."""
+    return " ".join("," if word == "and" else word for word in words).split(",")
 
 
 def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
