@@ -29,6 +29,7 @@ _EXTREME = (
 _SIDE = r"(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 _RANKED = re.compile(rf"from (?:the )?{_EXTREME}{_SIDE} to (?:the )?{_EXTREME}{_SIDE} ")
 _CLEARING = frozenset({"clear", "remove", "take", "move", "clean", "wipe"})
+_ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
 _EVERYTHING = frozenset({"everything", "anything", "all"})
 
 
@@ -89,19 +90,15 @@ def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
 
 
 def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "a cosy bedroom in charcoal, leather and oak" as "a cosy bedroom": nobody says where that is."""
-    at = next((n for n in range(1, min(len(words) - 2, 8)) if words[n] == "in" and words[n - 1] in lexicon.BACKGROUND), 0)
-    said = words[at + 1 : -1]
+    """Read "a bedroom in charcoal, leather and oak", "with oak accents" as "a bedroom": nobody says where that is."""
+    at = next((n for n in range(1, min(len(words) - 2, 8)) if words[n - 1] in lexicon.BACKGROUND
+               and (words[n] == "in" or (words[n] == "with" and words[-2] in _ACCENTS))), 0)  # fmt: skip
+    said = " ".join("," if word == "and" else word for word in words[at + 1 : -1])
     told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | FINITE
-    plain = {",", "and"} & {*said} and not told & {*said} and all(len(run.split()) < 3 for run in _runs(said))
-    if not at or not plain or any(link_at(tokens, n) for n in range(at + 1, len(words))):
+    plain = words[at] == "with" or "," in said
+    if not at or not plain or told & {*said.split()} or any(len(run.split()) > 2 for run in said.split(",")):
         return None
-    return [*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])]
-
-
-def _runs(words: Sequence[str]) -> list[str]:
-    """What stands between the joints of a list."""
-    return " ".join("," if word == "and" else word for word in words).split(",")
+    return None if any(link_at(tokens, n) for n in range(at + 1, len(words))) else ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])])
 
 
 def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

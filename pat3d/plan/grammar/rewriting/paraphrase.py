@@ -45,7 +45,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import of_what
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
@@ -55,7 +55,7 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
     **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in _MIDDLES},
     **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
     **{(near, "side"): ("next", "to") for near in ("at", "by")},
-    ("in", "midst"): ("next", "to"),
+    ("in", "midst"): ("next", "to"), ("at", "foot"): ("next", "to"),
 }
 """Places of what a pronoun names, in the words of a relation."""
 _STANDING = frozenset({"stand", "sit", "lie", "hang", "rest", "lean"})
@@ -318,6 +318,10 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
             # "The dog is out of the box": not in it.
             kept.append(replace(token, text="outside"))
+            continue
+        found = nouns.match([before]) if token.text in ("fruit", "fruits") and not is_colour_word(before) else None
+        if found is not None and found.noun in lexicon.GENERICS["fruit"]:
+            # "A green apple fruit" is an apple.
             continue
         # "A can stand", "a soda can stand" is of a can.
         subject = before not in (".", ",") and before not in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
