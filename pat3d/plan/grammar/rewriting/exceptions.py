@@ -27,37 +27,35 @@ def exceptions(told: list[list[Token]]) -> list[list[Token]]:
 
 def coloured_alike(sentence: list[Token], nouns: Nouns) -> list[Token]:
     """Tell "a shelf of jars, all red" as "a shelf of red jars", ", all red except one blue" with a blue one beside."""
-    words = [token.text for token in sentence]
-    for at in range(2, len(words) - 2):
-        if words[at] != "," or words[at + 1] not in ("all", "both", "each"):
-            continue
-        start = at + 2
-        for said in (["of", "them"], ["of", "which"], ["are"]):
-            start += len(said) * (words[start : start + len(said)] == said)
-        end = next(n for n in range(start, len(words)) if not (is_colour_word(words[n]) or words[n] == "and"))
+    words, stop = [token.text for token in sentence], len(sentence) - 1
+    for at in (n for n in range(2, stop - 1) if words[n] == "," and words[n + 1] in ("all", "both", "each")):
+        start = next(n for n in range(at + 2, stop + 1) if words[n] not in ("of", "them", "which", "are"))
+        end = next(n for n in range(start, stop + 1) if not (is_colour_word(words[n]) or words[n] == "and"))
         size = next((len(said) for said in _EXCEPT if tuple(words[end : end + len(said)]) == said), 0)
-        one = words[end + size] == "one" and size
-        stop = end + size + 1 + is_colour_word(words[end + size + 1]) if one else end
+        one = end + size if size and words[end + size] == "one" else 0
+        after = one + 1 + is_colour_word(words[one + 1]) if one else end
         names = _spoken_of(sentence[:at], nouns)
-        if end == start or not sentence[stop].mark or not names or (one and len(names) > 1):
+        if (
+            end == start
+            or not sentence[after].mark
+            or not names
+            or (one and (len(names) > 1 or not singulars(words[names[0][1] - 1])))
+        ):
             continue
-        made, before = list[Token](), 0
-        for first, last in names:
-            hue = [replace(each, start=sentence[first].start, end=sentence[first].start) for each in sentence[start:end]]
-            made += [*sentence[before:first], *hue, *sentence[first:last]]
-            before = last
+        (first, last), made = names[0], sentence[:at]
         if one:
-            first, last = names[0]
-            lead = len(made) - (last - first) - (end - start) - 1
-            if words[first - 1] == "of" and nouns.match(words[first - 2 : first - 1]):
-                # The blue one of "a crate of jars" is in the crate as well.
-                made[lead] = replace(made[lead], text="with")
-            if (total := numeral(words[first - 1])) > 1:
-                made[lead] = replace(made[lead], text=str(total - 1))
-            single = [*sentence[first : last - 1], replace(sentence[last - 1], text=singulars(words[last - 1])[0])]
-            said = [replace(sentence[end], text="and"), *sentence[end + size : stop]]
-            made += [*said, *(replace(each, start=said[-1].end, end=said[-1].end) for each in single)]
-        return [*made, *sentence[before:at], *sentence[stop:]]
+            # The blue one of "a crate of jars" is in the crate as well, and of five jars that are not four are red.
+            inside = words[first - 1] == "of" and nouns.match(words[first - 2 : first - 1])
+            fewer = str(numeral(words[first - 1]) - 1) if numeral(words[first - 1]) > 1 else words[first - 1]
+            made[first - 1] = replace(made[first - 1], text="with" if inside else fewer)
+            ends = sentence[after].start
+            name = [*sentence[first : last - 1], replace(sentence[last - 1], text=singulars(words[last - 1])[0])]
+            made[last:last] = [replace(sentence[end], text="and"), *sentence[one:after],
+                               *(replace(each, start=ends, end=ends) for each in name)]  # fmt: skip
+        for begin, _ in reversed(names):
+            made[begin:begin] = [replace(hue, start=made[begin].start, end=made[begin].start)
+                                 for hue in sentence[start:end]]  # fmt: skip
+        return [*made, *sentence[after:]]
     return sentence
 
 
@@ -65,25 +63,21 @@ def _spoken_of(sentence: Sequence[Token], nouns: Nouns) -> list[Span]:
     """The names in `sentence` of what "all" means: the first list of several, what is had before what has it."""
     words, at = [token.text for token in sentence], 0
     lists: list[list[Span]] = []
-    several: list[bool] = []
+    told: list[Span] = []
     joined = had = False
     while at < len(words):
-        size = next((n for n in (3, 2, 1) if nouns.match(words[at : at + n]) and at + n <= len(words)), 0)
-        if size and not is_colour_word(words[at]):
-            many = bool((found := nouns.match(words[at : at + size])) and found.plural)
-            if joined:
-                lists[-1].append((at, at + size))
-                several[-1] = True
-            elif had or not any(several):
-                lists.append([(at, at + size)])
-                several.append(many)
-            joined = True
-        else:
-            plain = words[at] in _LISTING or numeral(words[at]) or is_modifier(words[at])
-            had = words[at] in ("with", "of") or words[at] in lexicon.HAVING if not plain else had
-            joined = joined and bool(plain)
+        sizes = (n for n in (3, 2, 1) if at + n <= len(words) and nouns.match(words[at : at + n]))
+        size = 0 if is_colour_word(words[at]) else next(sizes, 0)
+        if size and (joined or had or not told):
+            lists += [] if joined else [[]]
+            lists[-1].append((at, at + size))
+            found = nouns.match(words[at : at + size])
+            told = lists[-1] if len(lists[-1]) > 1 or (found is not None and found.plural) else told
+        elif not (size or words[at] in _LISTING or numeral(words[at]) or is_modifier(words[at])):
+            had = words[at] in ("with", "of") or words[at] in lexicon.HAVING
+        joined = bool(size) or (joined and (words[at] in _LISTING or numeral(words[at]) > 0 or is_modifier(words[at])))
         at += size or 1
-    return next((each for each, many in zip(reversed(lists), reversed(several), strict=True) if many), [])
+    return told
 
 
 def _but(sentence: list[Token]) -> list[Token]:

@@ -98,7 +98,11 @@ def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
     plain = words[at] == "with" or "," in said
     if not at or not plain or told & {*said.split()} or any(len(run.split()) > 2 for run in said.split(",")):
         return None
-    return None if any(link_at(tokens, n) for n in range(at + 1, len(words))) else ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])])
+    return (
+        None
+        if any(link_at(tokens, n) for n in range(at + 1, len(words)))
+        else ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])])
+    )
 
 
 def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

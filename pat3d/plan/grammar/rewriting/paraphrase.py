@@ -55,7 +55,8 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
     **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in _MIDDLES},
     **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
     **{(near, "side"): ("next", "to") for near in ("at", "by")},
-    ("in", "midst"): ("next", "to"), ("at", "foot"): ("next", "to"),
+    ("in", "midst"): ("next", "to"),
+    ("at", "foot"): ("at", "the", "foot", "of"),
 }
 """Places of what a pronoun names, in the words of a relation."""
 _STANDING = frozenset({"stand", "sit", "lie", "hang", "rest", "lean"})
