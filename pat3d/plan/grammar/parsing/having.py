@@ -15,8 +15,8 @@ _SAME_OWNER = 0.45
 """Gain where what stands "to its left" and "to its right" has one owner."""
 _LANDMARKS = 0.7
 """Cost of what a clause says with a verb being said of the landmark before it and not of what it begins with."""
-_OF_LAST = 0.5
-"""Cost of all that is had being beside what stands behind the last of it."""
+_OF_LAST = 0.35
+"""Gain where the last of what is had alone is beside what stands behind it."""
 _ENDED = 0.35
 """Cost of having more behind what is said to be in or on the owner."""
 
@@ -148,9 +148,9 @@ class Having(Judging):
         if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in aside):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
             cost += 0.8
-        if level and any(len({*fact[2]} & {*modifier.heads}) > 1 for fact in lateral):
+        if level and len(modifier.heads) > 1 and any(fact[2] == modifier.heads[-1:] for fact in lateral):
             # "A desk with a lamp, a phone and a pen next to a notebook": the pen is.
-            cost += _OF_LAST
+            cost -= _OF_LAST
         first, last = min(left, default=0), max(left, default=0)
         amid = [fact for fact in lateral if fact[2] and fact[3]]
         amid = [fact for fact in amid if first <= fact[2][0] < fact[3][-1] < last and not self._definite(fact[3])]

@@ -25,8 +25,8 @@ POSTURE = (
 )
 """Pattern of a posture."""
 _HELD = re.compile(
-    r"upright|vertically|right[ -]side[ -]up|(?:the )?right way up|(?:turned )?upside[ -]down|bottom[ -]up|inverted|upturned"
-    r"|flipped(?: over)?|turned over|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?"
+    r"upright|vertically|right[ -]side[ -]up|(?:the )?right way up|(?:turned )?upside[ -]down|bottom[ -]up"
+    r"|inverted|upturned|flipped(?: over)?|turned over|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?"
     r"|toppled(?: over)?|(?:tipped|knocked) over"
 )
 """Postures that a scene holds as they are said."""
