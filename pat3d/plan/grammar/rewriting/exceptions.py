@@ -29,18 +29,14 @@ def coloured_alike(sentence: list[Token], nouns: Nouns) -> list[Token]:
     """Tell "a shelf of jars, all red" as "a shelf of red jars", ", all red except one blue" with a blue one beside."""
     words, stop = [token.text for token in sentence], len(sentence) - 1
     for at in (n for n in range(2, stop - 1) if words[n] == "," and words[n + 1] in ("all", "both", "each")):
-        start = next(n for n in range(at + 2, stop + 1) if words[n] not in ("of", "them", "which", "are"))
-        end = next(n for n in range(start, stop + 1) if not (is_colour_word(words[n]) or words[n] == "and"))
+        start = next((n for n in range(at + 2, stop) if words[n] not in ("of", "them", "which", "are")), stop)
+        end = next((n for n in range(start, stop) if not (is_colour_word(words[n]) or words[n] == "and")), stop)
         size = next((len(said) for said in _EXCEPT if tuple(words[end : end + len(said)]) == said), 0)
         one = end + size if size and words[end + size] == "one" else 0
         after = one + 1 + is_colour_word(words[one + 1]) if one else end
         names = _spoken_of(sentence[:at], nouns)
-        if (
-            end == start
-            or not sentence[after].mark
-            or not names
-            or (one and (len(names) > 1 or not singulars(words[names[0][1] - 1])))
-        ):
+        single = len(names) == 1 and singulars(words[names[0][1] - 1])
+        if end == start or not (sentence[after].mark and names) or (one and not single):
             continue
         (first, last), made = names[0], sentence[:at]
         if one:
@@ -71,8 +67,8 @@ def _spoken_of(sentence: Sequence[Token], nouns: Nouns) -> list[Span]:
         if size and (joined or had or not told):
             lists += [] if joined else [[]]
             lists[-1].append((at, at + size))
-            found = nouns.match(words[at : at + size])
-            told = lists[-1] if len(lists[-1]) > 1 or (found is not None and found.plural) else told
+            several = len(lists[-1]) > 1 or nouns.match(words[at : at + size]).plural  # type: ignore[union-attr]
+            told = lists[-1] if several else told
         elif not (size or words[at] in _LISTING or numeral(words[at]) or is_modifier(words[at])):
             had = words[at] in ("with", "of") or words[at] in lexicon.HAVING
         joined = bool(size) or (joined and (words[at] in _LISTING or numeral(words[at]) > 0 or is_modifier(words[at])))

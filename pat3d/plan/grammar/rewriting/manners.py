@@ -95,14 +95,10 @@ def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
                and (words[n] == "in" or (words[n] == "with" and words[-2] in _ACCENTS))), 0)  # fmt: skip
     said = " ".join("," if word == "and" else word for word in words[at + 1 : -1])
     told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | FINITE
-    plain = words[at] == "with" or "," in said
-    if not at or not plain or told & {*said.split()} or any(len(run.split()) > 2 for run in said.split(",")):
-        return None
-    return (
-        None
-        if any(link_at(tokens, n) for n in range(at + 1, len(words)))
-        else ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])])
-    )
+    plain = at and (words[at] == "with" or "," in said) and not told & {*said.split()}
+    plain = plain and not any(link_at(tokens, n) for n in range(at + 1, len(words)))
+    few = all(len(run.split()) < 3 for run in said.split(","))
+    return ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])]) if plain and few else None
 
 
 def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -56,7 +56,6 @@ _ITS: dict[tuple[str, str], tuple[str, ...]] = {
     **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
     **{(near, "side"): ("next", "to") for near in ("at", "by")},
     ("in", "midst"): ("next", "to"),
-    ("at", "foot"): ("at", "the", "foot", "of"),
 }
 """Places of what a pronoun names, in the words of a relation."""
 _STANDING = frozenset({"stand", "sit", "lie", "hang", "rest", "lean"})
@@ -171,7 +170,7 @@ def _beside_the_first(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     words = [token.text for token in tokens]
     name = next((n for n in range(1, min(4, len(words))) if nouns.match(words[n : n + 1])), 0)
     at = next((n for n in range(name + 2, len(words) - 5) if words[n : n + 2] == ["and", ","]), 0)
-    it = at + 2 + link_at(tokens, at + 2)
+    it = at + 2 + link_at(tokens, at + 2) if at else 0
     opens = name and words[0] in ("a", "an", "the") and words[name + 1] in lexicon.HAVING
     link = LINKS.get(tuple(words[at + 2 : it])) if at else None
     if not opens or link is None or link.kind not in LATERAL_KINDS or words[it : it + 2] != ["it", ","]:
