@@ -46,8 +46,7 @@ _NAMESAKES = {
     "computer": "laptop laptops tablet", "keys": "piano", **dict.fromkeys(("rice", "pasta", "noodles"), ""),
     "brush": "dustpan broom mop sponge sink dish dishes soap comb razor toilet bathtub pot pan shoe shoes dog cat",
     "soup": "ladle platter crackers spoon salad", "red bull": "cow cows farm barn field horse sheep pasture fence",
-    **dict.fromkeys(("chess king", "chess queen", "chess rook", "chess bishop", "chess knight", "pine cone", "mantel",
-                     "mantelpiece"), ""),
+    **dict.fromkeys(("chess king", "chess queen", "chess rook", "chess bishop", "chess knight", "pine cone"), ""),
 }  # fmt: skip
 """Names of things that the catalogue has by another name only, and in what company they are meant; empty in any."""
 _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}

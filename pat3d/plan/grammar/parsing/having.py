@@ -148,7 +148,8 @@ class Having(Judging):
         if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in aside):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
             cost += 0.8
-        if level and len(modifier.heads) > 1 and any(fact[2] == modifier.heads[-1:] for fact in lateral):
+        ended = [fact for fact in lateral if fact[2] == modifier.heads[-1:] and not self._is_pronoun(fact[3])]
+        if level and len(modifier.heads) > 1 and ended:
             # "A desk with a lamp, a phone and a pen next to a notebook": the pen is.
             cost -= _OF_LAST
         first, last = min(left, default=0), max(left, default=0)

@@ -118,8 +118,7 @@ def _table() -> dict[tuple[str, ...], Link]:
                 for where in (f"{side} side", f"{side}-hand side", f"far {side}", f"far {side} side")
             ),
         )
-        add(Link(kind=kind), f"to the {side} side of")
-        add(half, f"on {side} of")
+        add(half, f"to the {side} side of", f"on {side} of")
     depths: tuple[tuple[Side, RelationKind, tuple[str, ...]], ...] = (
         ("back", "behind", ("back", "rear", "far side", "back side")),
         ("front", "in_front_of", ("front", "near side", "front side")),
