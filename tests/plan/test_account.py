@@ -136,4 +136,4 @@ def test_what_is_on_a_head_stays_on_it():
 
 def test_what_is_inserted_where_it_may_be_said_of_several_things_is_refused():
     with pytest.raises(PromptError, match="next to it"):
-        PLANNER.plan("A frying pan with two eggs and, next to it, a pepper mill.")
+        PLANNER.plan("On a stove is a frying pan with two eggs and, next to it, a pepper mill.")

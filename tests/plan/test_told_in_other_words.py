@@ -2,7 +2,9 @@
 
 import pytest
 
+from pat3d.plan.grammar.meaning.tasks import SEVERAL
 from pat3d.plan.grammar.planner import GrammarPlanner
+from tests.plan.vocabulary import steps
 
 PLANNER = GrammarPlanner()
 
@@ -16,10 +18,9 @@ def told(prompt: str) -> tuple[str, str, str | None, list[str]]:
         if one.arranged and one.kind != "row"
     ]
     notes = [note for note in plan.notes if not note.startswith("worded like nothing") and " assumed." not in note]
-    several = [note for note in notes if note.startswith("the instruction is several tasks")]
-    task = several[0].partition("one at a time: ")[2] if several else plan.task
+    task = ", ".join(steps(plan)) or None
     objects = ", ".join(obj.name for obj in plan.objects)
-    notes = [note for note in notes if note not in several]
+    notes = [note for note in notes if not note.startswith(SEVERAL)]
     return objects, ", ".join([*map(str, plan.relations), *arranged]), task, notes
 
 

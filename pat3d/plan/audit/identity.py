@@ -44,6 +44,7 @@ _NAMESAKES = {
     "file": f"{_TOOLS} binder", "plane": _TOOLS, "letter": "envelope envelopes",
     "glove": "bat baseball ball", "clip": "paper papers document documents page",
     "computer": "laptop laptops tablet", "keys": "piano", **dict.fromkeys(("rice", "pasta", "noodles"), ""),
+    "brush": "dustpan broom mop sponge sink dish dishes soap comb razor toilet bathtub pot pan shoe shoes dog cat",
     "soup": "ladle platter crackers spoon salad", "red bull": "cow cows farm barn field horse sheep pasture fence",
 }  # fmt: skip
 """Names of things that the catalogue has by another name only, and in what company they are meant; empty in any."""
@@ -223,13 +224,15 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         for said, company in _NAMESAKES.items():
             name = said.split()
-            at = next((n for n in range(len(words)) if words[n : n + len(name)] == name or
-                       ([*singulars(words[n])[:1]] == name and words[n] != said)), None)  # fmt: skip
+            # What a prompt of chess calls a knight has the name of a chess knight.
+            told = [*words, *(re.findall(r"[a-z]+", obj.name.lower()) if len(name) > 1 else ())]
+            called = any([*told[max(n + 1 - len(name), 0) : n], one] == name
+                         for n, word in enumerate(told) for one in (word, *singulars(word)))  # fmt: skip
             meant = not company or {*company.split()} & ({*it.said.words} - {*words})
             made = obj.noun.split()
             own = said == obj.noun or ({*made} <= {*words} and not {*made} <= {*name})
-            if at is not None and meant and not own and f'"{said}"' not in it.quoted:
-                yield it.said.words.index(words[at]), f'"{said}" is made as a "{obj.noun}"'
+            if called and meant and not own and f'"{said}"' not in it.quoted:
+                yield 0, f'"{said}" is made as a "{obj.noun}"'
                 break
         for said, whole in _WORN.items():
             if obj.noun == said and {*whole.split()} & {*it.said.words} and "baseball" not in words:

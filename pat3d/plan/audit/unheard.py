@@ -9,6 +9,7 @@ from itertools import pairwise
 from pat3d.assets.colours import find_colour
 from pat3d.assets.materials import find_material
 from pat3d.plan.audit.compared import Compared
+from pat3d.plan.audit.stacks import singulars
 from pat3d.plan.audit.tallied import compared_words
 from pat3d.plan.audit.words import DEEDS, EACH, FALLEN, FARTHEST, GUESTS, SILENT, THINGS, UNITS
 from pat3d.scene.arrangements import crossing
@@ -49,7 +50,10 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
     made: list[tuple[int, str]] = []
     shapes = _shapes(it)
     measured = any(obj.extent is not None for obj in it.plan.objects) or "distances between" in it.quoted
+    parts = {adjective for obj in it.plan.objects for adjective in obj.adjectives if "-" in adjective}
     for at, word in enumerate(words):
+        # The blue rim of a plate, of which nothing is made, tells it from other plates.
+        unpainted = bool({f"{words[at - 1]}-{one}" for one in (word, *singulars(word))} & parts)
         weighs = word in _WEIGHED or (word == "lighter" and all(obj.noun != "lighter" for obj in it.plan.objects))
         if weighs and not re.search(rf"\b{word}\b", it.quoted):
             made.append((at, f'not modelled: "{word}"'))
@@ -58,7 +62,7 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
             or weighs
             or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3], word[:-4]}
             or word in shapes
-            or word in SILENT
+            or (word in SILENT and not unpainted)
             or not word[0].isalpha()
         ):
             continue
@@ -125,7 +129,9 @@ def _shapes(it: Compared) -> frozenset[str]:
         frozenset({"alternate", "alternates", "alternately", "alternating"} if alternating else ())
         | frozenset({"pyramid"} if heaped else ())
         | frozenset({"grid"} if crossing([one.objects for one in it.plan.arrangements if one.kind == "row"]) else ())
-        | frozenset({"tower", "towers", "piles", "stacks", "high"} if stacked else ())
+        | frozenset({"tower", "towers", "piles", "stacks", "high", "vertically"} if stacked else ())
+        | {one.said for one in it.plan.postures}
+        | frozenset({"vertically"} if "dish rack" in nouns.values() else ())
         | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())

@@ -219,7 +219,7 @@ stack pile top middle center centre edge corner end left right front back first 
 complete featuring including objects items things everything others exactly about well together somewhere what shown
 seen should must need i'd give following features color immediate amidst belongs belong leave keep needs need goes go
 upside upright head facing
-faces face turned turn vertically wearing directly opposite former latter decorated bearing fruit fruits toys tools
+faces face turned turn wearing directly opposite former latter decorated bearing fruit fruits toys tools
 vegetables stationery snacks cutlery utensils drinks plush covers rim smallest largest biggest bigger smaller larger
 bottom upper topmost leftmost rightmost lower pieces piece very quite just really only please can could you i me we us
 would
@@ -251,7 +251,7 @@ put place pick take move grab grasp lift stack transfer fetch insert push slide 
 robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
 picking moving taking lifting bringing tidy clear scoop seize extract unhook alone grip firm strip
 arrange load collect toss chuck slap plop pop lob fling hurl gather sweep shove nudge deposit stow stash dump cover seal
-serve
+serve position
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

@@ -107,6 +107,11 @@ class Plausible:
             return 0.9
         return 0.6 if child == parent else 1.1
 
+    def stands_by(self, child: str, parent: str) -> bool:
+        """Whether `child` is beside `parent` where it is "on the left side of" it: furniture, a lamp by a bed."""
+        by_seat = self.is_a(child, lexicon.BY_A_SEAT) or self.hollow(child)
+        return self.floor(child) or (by_seat and self.is_a(parent, _SOFT[:3]))
+
     def _closes(self, child: str, parent: str) -> bool:
         """Whether `child` is what closes `parent`: the lid of a jar, the cap of a bottle."""
         if child == "cap":

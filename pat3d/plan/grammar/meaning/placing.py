@@ -18,7 +18,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import read_modifiers
 from pat3d.plan.grammar.words.postures import token_text
-from pat3d.scene.relations import LATERAL_KINDS
+from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE
 
 _ON_ITS = {"head": "upside down", "side": "on its side", "back": "lying on its back", "face": "lying on its face"}
 """What an object may lie on that is a part of itself, and how it is turned then."""
@@ -178,6 +178,11 @@ class Placing(Forming):
         if not owners and links and all(link is not None and link.kind == "next_to" for link in links):
             items = self._said.ref_all(fronts)
             return items if len(items) == 1 else []
+        across = [edge.parent for edge in self._world.laterals if edge.child in owners and edge.parent not in children
+                  and edge.kind == OPPOSITE.get(LATERAL_SIDES.get(chunk.text, ""))]  # fmt: skip
+        if across and "its" not in chunk.words:
+            # "A nightstand to the left of the bed, with a dresser on the right": of the bed.
+            return across[-1:]
         if "its" not in chunk.words or not owners or not self._world.is_table(owners[0]):
             return []
         # "A laptop is on the desk with a mouse to its right": of what stands on the desk.

@@ -380,7 +380,7 @@ class Relating:
             # "A bird stands on the back of an elephant": an animal's back is its top.
             self.relate(children, Link(kind="on"), parents)
             return
-        on_it = level and not world.on_floor(children[0])
+        on_it = level and not world.likely.stands_by(world.noun(children[0]), world.noun(parent))
         if on_it and side in ("left", "right") and said and "side" not in said.split():
             world.note(
                 f'"{children[0].group.words}" {said} "{parent.group.words}": on it; "to the {side} of" has it beside.'

@@ -15,6 +15,8 @@ _SAME_OWNER = 0.45
 """Gain where what stands "to its left" and "to its right" has one owner."""
 _LANDMARKS = 0.7
 """Cost of what a clause says with a verb being said of the landmark before it and not of what it begins with."""
+_OF_LAST = 0.35
+"""Gain where the last of what is had alone is beside what stands behind it."""
 _ENDED = 0.35
 """Cost of having more behind what is said to be in or on the owner."""
 
@@ -98,6 +100,10 @@ class Having(Judging):
             self._chunks[fact[1]].text: fact[2] for fact in facts
             if fact[0] == "place" and fact[2] == (fact[1] - 1,) and {"its", "their"} & {*self._chunks[fact[1]].words}
         }  # fmt: skip
+        stands = landmark and self._chunks[owners[0] - 2].kind == "verb"
+        if sides and stands and self._link(owners[0] - 1).kind in LATERAL_KINDS:
+            # "A fork lies beside the plate with a spoon to its right": of the fork.
+            cost += _LANDMARKS
         # "each with a fork to its left and a knife to its right": of the same plate.
         cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys() and link.manner != "of")
         wears = self._chunks[at].words[0] == "wearing"
@@ -142,6 +148,10 @@ class Having(Judging):
         if link.manner == "hold" and any(set(fact[2]) >= set(modifier.heads) for fact in aside):
             # What is held stands not beside: "a mug holds a pen, and a bowl beside it" has the bowl beside.
             cost += 0.8
+        ended = [fact for fact in lateral if fact[2] == modifier.heads[-1:] and not self._is_pronoun(fact[3])]
+        if level and len(modifier.heads) > 1 and ended:
+            # "A desk with a lamp, a phone and a pen next to a notebook": the pen is.
+            cost -= _OF_LAST
         first, last = min(left, default=0), max(left, default=0)
         amid = [fact for fact in lateral if fact[2] and fact[3]]
         amid = [fact for fact in amid if first <= fact[2][0] < fact[3][-1] < last and not self._definite(fact[3])]

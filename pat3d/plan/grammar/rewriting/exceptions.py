@@ -7,13 +7,15 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.lexing import Span, Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_colour_word
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.unmade import base_verb
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _EXCEPT = (("except", "for"), ("apart", "from"), ("but", "for"), ("save", "for"), ("except",), ("but",), ("save",))
+_LISTING = frozenset({",", "and", "a", "an", "the", "some", "several"})
 _SAVE = frozenset({"except", "save", "excepting", "only"})
 
 
@@ -21,6 +23,57 @@ def exceptions(told: list[list[Token]]) -> list[list[Token]]:
     """The sentences `told` with what is excepted in a sentence of its own."""
     plain = [each for at, sentence in enumerate(told) for each in _of_others(_but(sentence), told[:at])]
     return [each for sentence in plain for each in (_coloured(sentence) or _described(sentence) or _asked(sentence))]
+
+
+def coloured_alike(sentence: list[Token], nouns: Nouns) -> list[Token]:
+    """Tell "a shelf of jars, all red" as "a shelf of red jars", ", all red except one blue" with a blue one beside."""
+    words, stop = [token.text for token in sentence], len(sentence) - 1
+    for at in (n for n in range(2, stop - 1) if words[n] == "," and words[n + 1] in ("all", "both", "each")):
+        start = next((n for n in range(at + 2, stop) if words[n] not in ("of", "them", "which", "are")), stop)
+        end = next((n for n in range(start, stop) if not (is_colour_word(words[n]) or words[n] == "and")), stop)
+        size = next((len(said) for said in _EXCEPT if tuple(words[end : end + len(said)]) == said), 0)
+        one = end + size if size and words[end + size] == "one" else 0
+        after = one + 1 + is_colour_word(words[one + 1]) if one else end
+        names = _spoken_of(sentence[:at], nouns)
+        single = len(names) == 1 and singulars(words[names[0][1] - 1])
+        if end == start or not (sentence[after].mark and names) or (one and not single):
+            continue
+        (first, last), made = names[0], sentence[:at]
+        if one:
+            # The blue one of "a crate of jars" is in the crate as well, and of five jars that are not four are red.
+            inside = words[first - 1] == "of" and nouns.match(words[first - 2 : first - 1])
+            fewer = str(numeral(words[first - 1]) - 1) if numeral(words[first - 1]) > 1 else words[first - 1]
+            made[first - 1] = replace(made[first - 1], text="with" if inside else fewer)
+            ends = sentence[after].start
+            name = [*sentence[first : last - 1], replace(sentence[last - 1], text=singulars(words[last - 1])[0])]
+            made[last:last] = [replace(sentence[end], text="and"), *sentence[one:after],
+                               *(replace(each, start=ends, end=ends) for each in name)]  # fmt: skip
+        for begin, _ in reversed(names):
+            made[begin:begin] = [replace(hue, start=made[begin].start, end=made[begin].start)
+                                 for hue in sentence[start:end]]  # fmt: skip
+        return [*made, *sentence[after:]]
+    return sentence
+
+
+def _spoken_of(sentence: Sequence[Token], nouns: Nouns) -> list[Span]:
+    """The names in `sentence` of what "all" means: the first list of several, what is had before what has it."""
+    words, at = [token.text for token in sentence], 0
+    lists: list[list[Span]] = []
+    told: list[Span] = []
+    joined = had = False
+    while at < len(words):
+        sizes = (n for n in (3, 2, 1) if at + n <= len(words) and nouns.match(words[at : at + n]))
+        size = 0 if is_colour_word(words[at]) else next(sizes, 0)
+        if size and (joined or had or not told):
+            lists += [] if joined else [[]]
+            lists[-1].append((at, at + size))
+            several = len(lists[-1]) > 1 or nouns.match(words[at : at + size]).plural  # type: ignore[union-attr]
+            told = lists[-1] if several else told
+        elif not (size or words[at] in _LISTING or numeral(words[at]) or is_modifier(words[at])):
+            had = words[at] in ("with", "of") or words[at] in lexicon.HAVING
+        joined = bool(size) or (joined and (words[at] in _LISTING or numeral(words[at]) > 0 or is_modifier(words[at])))
+        at += size or 1
+    return told
 
 
 def _but(sentence: list[Token]) -> list[Token]:

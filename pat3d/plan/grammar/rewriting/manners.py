@@ -29,6 +29,7 @@ _EXTREME = (
 _SIDE = r"(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 _RANKED = re.compile(rf"from (?:the )?{_EXTREME}{_SIDE} to (?:the )?{_EXTREME}{_SIDE} ")
 _CLEARING = frozenset({"clear", "remove", "take", "move", "clean", "wipe"})
+_ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
 _EVERYTHING = frozenset({"everything", "anything", "all"})
 
 
@@ -51,9 +52,9 @@ _UNSEEN = frozenset({"can't", "cannot", "won't", "isn't", "aren't", "not", "does
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, _style, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state, _labels, in_turn,
-                 _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun, ways.often,
-                 ways.until, ways.parallel, ways.leaping):  # fmt: skip
+    for told in (choice, _style, _stuffs, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state,
+                 _labels, in_turn, _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun,
+                 ways.often, ways.until, ways.parallel, ways.leaping):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)
@@ -86,6 +87,18 @@ def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
         end = next(n for n in begun if tokens[n].mark or words[n] in FINITE or _goes_on(tokens, n, nouns))
         return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
+
+
+def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a bedroom in charcoal, leather and oak", "with oak accents" as "a bedroom": nobody says where that is."""
+    at = next((n for n in range(1, min(len(words) - 2, 8)) if words[n - 1] in lexicon.BACKGROUND
+               and (words[n] == "in" or (words[n] == "with" and words[-2] in _ACCENTS))), 0)  # fmt: skip
+    said = " ".join("," if word == "and" else word for word in words[at + 1 : -1])
+    told = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | FINITE
+    plain = at and (words[at] == "with" or "," in said) and not told & {*said.split()}
+    plain = plain and not any(link_at(tokens, n) for n in range(at + 1, len(words)))
+    few = all(len(run.split()) < 3 for run in said.split(","))
+    return ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])]) if plain and few else None
 
 
 def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

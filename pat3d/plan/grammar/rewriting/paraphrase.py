@@ -46,9 +46,10 @@ from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import of_what
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _MIDDLES = ("centre", "center", "middle")
 _ITS: dict[tuple[str, str], tuple[str, ...]] = {
@@ -89,6 +90,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     refuse_negations(tokens)
     tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
+    tokens = _beside_the_first(tokens, nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(_lid_on(tokens), nouns), nouns)
@@ -151,6 +153,21 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
         if all(plain) and not any(each.text in STANDING or each.text == "and" for each in named):
             return [*tokens[: at + 1], *named, *tokens[at + 2 : comma], *tokens[end:]]
     return list(tokens)
+
+
+def _beside_the_first(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a tray holding eggs and, next to it, a jug" as "..., and next to the tray is a jug"."""
+    words = [token.text for token in tokens]
+    name = next((n for n in range(1, min(4, len(words))) if nouns.match(words[n : n + 1])), 0)
+    at = next((n for n in range(name + 2, len(words) - 5) if words[n : n + 2] == ["and", ","]), 0)
+    it = at + 2 + link_at(tokens, at + 2) if at else 0
+    opens = name and words[0] in ("a", "an", "the") and words[name + 1] in lexicon.HAVING
+    link = LINKS.get(tuple(words[at + 2 : it])) if at else None
+    if not opens or link is None or link.kind not in LATERAL_KINDS or words[it : it + 2] != ["it", ","]:
+        return list(tokens)
+    the, comma = replace(tokens[it], text="the"), replace(tokens[at], text=",", end=tokens[at].start, mark=True)
+    owner = [replace(tokens[it], text=words[name]), replace(tokens[it + 1], text="is", mark=False)]
+    return [*tokens[:at], comma, tokens[at], *tokens[at + 2 : it], the, *owner, *tokens[it + 2 :]]
 
 
 def _set_off(text: str, tokens: Sequence[Token]) -> list[Token]:
@@ -291,6 +308,10 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
             # "The dog is out of the box": not in it.
             kept.append(replace(token, text="outside"))
+            continue
+        found = nouns.match([before]) if token.text in ("fruit", "fruits") and not is_colour_word(before) else None
+        if found is not None and found.noun in lexicon.GENERICS["fruit"]:
+            # "A green apple fruit" is an apple.
             continue
         # "A can stand", "a soda can stand" is of a can.
         subject = before not in (".", ",") and before not in lexicon.DETERMINERS | lexicon.NUMBERS.keys()

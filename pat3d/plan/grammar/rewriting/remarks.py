@@ -72,6 +72,7 @@ class Remarks:
                 or self._sort(at)
                 or self._manner(at)
                 or self._apart(at)
+                or self._lacking(at)
                 or self._participle(at)
                 or self._verb(at)
             )
@@ -194,6 +195,14 @@ class Remarks:
         if kinds and at and self._words[at - 1] == ",":
             return next(n for n in range(at, len(self._words)) if self._tokens[n].mark)
         return 0
+
+    def _lacking(self, at: int) -> int:
+        """The end of "with a slice missing" at `at`, behind a noun: of a part, or of a piece."""
+        end = next((n for n in range(at + 2, min(at + 5, len(self._words))) if self._words[n] == "missing"), 0)
+        part = {self._words[end - 1], *singulars(self._words[end - 1])}
+        plain = part & (lexicon.PARTS | lexicon.PIECES | {"section", "slice", "piece", "chunk", "string", "button"})
+        lacks = self._words[at] == "with" and end and self._begins(at + 1)
+        return end + 1 if lacks and self._behind_noun(at) and (plain or end - 1 not in self._named) else 0
 
     def _participle(self, at: int) -> int:
         """The end of "marked fragile" at `at`, behind a noun; 0 where nothing of that kind begins there."""

@@ -10,7 +10,7 @@ from pat3d.plan.grammar.rewriting.asking import plainly_asked
 from pat3d.plan.grammar.rewriting.beforehand import ones_named, told_before
 from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each
 from pat3d.plan.grammar.rewriting.doers import told_plainly
-from pat3d.plan.grammar.rewriting.exceptions import exceptions
+from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
 from pat3d.plan.grammar.rewriting.guests import for_guests
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
@@ -57,8 +57,8 @@ def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
     told = _conditions(brought_about(_labelled(parts)))
     told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(_wherever(each))]
-    told = _come_to_rest(told)
-    told = one_for_each(_reordered(exceptions(told), nouns))
+    told = [coloured_alike(each, nouns) for each in exceptions(_come_to_rest(told))]
+    told = one_for_each(_reordered(told, nouns))
     return [sentence for sentence in told if len(sentence) > 1]
 
 

@@ -11,7 +11,7 @@ from dataclasses import replace
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, items_of, singulars
-from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
+from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -27,7 +27,7 @@ Share = tuple[int, list[Token]]
 
 def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "three cups (one red, two blue) and a pen" as "one red cup, two blue cups and a pen"."""
-    made = _all_of_them(_in_numbers(_of_them(list(tokens), nouns)))
+    made = _both_of_them(_in_numbers(_of_them(list(tokens), nouns)))
     at = 1
     while at < len(made) - 4:
         told = _told(text, made, at, nouns)
@@ -72,21 +72,14 @@ def _in_numbers(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
-def _all_of_them(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "five cups on a shelf, all of them red" as "..., all of which are red"."""
+def _both_of_them(tokens: list[Token]) -> list[Token]:
+    """`tokens` with "a cup beside a book, both on a desk" as "..., both of them on a desk"."""
     words = [token.text for token in tokens]
     for at in range(2, len(words) - 2):
         placed = words[at + 2] == "are" or (words[at + 2] != "of" and link_at(tokens, at + 2))
         if words[at : at + 2] == [",", "both"] and placed:
-            # "A cup beside a book, both on a desk"
             them = [replace(tokens[at + 1], text=word) for word in ("of", "them")]
             return [*tokens[: at + 2], *them, *tokens[at + 2 :]]
-        colour = at + 2 + 2 * (words[at + 2 : at + 4] == ["of", "them"])
-        if words[at : at + 2] != [",", "all"] or not is_colour_word(words[colour]) or not tokens[colour + 1].mark:
-            continue
-        if words[colour + 1] == "." and not {",", "and"} & {*words[:at]}:
-            told = [replace(tokens[at + 1], text=word) for word in ("of", "which", "are")]
-            return [*tokens[: at + 2], *told, *tokens[colour:]]
     return tokens
 
 

@@ -370,7 +370,7 @@ PARTS_OF: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("mantelpiece", "mantel", "mantle", "hearth"), ("fireplace",)),
 }  # fmt: skip
 """What the things after it have as a part, though there are things of that name too."""
-BUILT_IN = frozenset({"burner"})
+BUILT_IN = frozenset({"burner", "mantelpiece", "mantel", "mantle", "hearth"})
 """Those of which "the burner" is one wherever there is what has it."""
 POSITIONS: dict[str, int] = {
     "left": 0, "leftmost": 0, "first": 0, "front": 0, "middle": 1, "right": -1, "rightmost": -1, "last": -1,

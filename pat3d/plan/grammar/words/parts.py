@@ -14,7 +14,7 @@ _NAMES = """
 PARTS = frozenset(_NAMES.split())
 """Their names, wherever they stand."""
 _HAD = """
-    antenna antennae antler badge backrest band bezel binding buckle bumper chimney clasp claw collar crest cuff
+    antenna antennae antler badge backrest band bezel binding border buckle bumper chimney clasp claw collar crest cuff
     drawstring eyelet fang feather filament flame fretboard fringe gemstone grip hair headlight headrest heel
     hem hilt hood hoof hooves hull jewel keypad lapel latch lever lining mast monogram motif muzzle neck numeral
     peak pendant pistil plume pommel propeller rivet roof rotor ruffle rung saddle shaft shoelace snout spike spoke

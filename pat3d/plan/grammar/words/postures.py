@@ -18,13 +18,15 @@ POSTURE = (
     r"|(?:lying|lies|lie|laid) down"
     r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
+    # "Books stacked vertically" are in a stack.
+    r"|(?<!stacked )(?<!arranged )(?<!aligned )(?<!up )vertically(?! (?:stacked|aligned|arranged|on top))"
     r"|facing (?:left|right|up|down|upwards?|downwards?|forwards?|away|inwards?|outwards?)"
     r"|leaning to (?:one|the|its) (?:side|left|right)|facing the (?:viewer|camera|front|left|right|wall)"
 )
 """Pattern of a posture."""
 _HELD = re.compile(
-    r"upright|right[ -]side[ -]up|(?:the )?right way up|(?:turned )?upside[ -]down|bottom[ -]up|inverted|upturned"
-    r"|flipped(?: over)?|turned over|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?"
+    r"upright|vertically|right[ -]side[ -]up|(?:the )?right way up|(?:turned )?upside[ -]down|bottom[ -]up"
+    r"|inverted|upturned|flipped(?: over)?|turned over|(?:\w+ )?(?:flat )?(?:on|onto) (?:its|their) sides?"
     r"|toppled(?: over)?|(?:tipped|knocked) over"
 )
 """Postures that a scene holds as they are said."""
@@ -56,13 +58,13 @@ def is_held(posture: str, *, lies: bool) -> bool:
 
 def stands_on_edge(posture: str) -> bool:
     """Whether `posture` says of what lies by nature that it stands on one of its narrow faces."""
-    return re.search(r"upright|on end|edge|side", posture.lower()) is not None
+    return re.search(r"upright|vertically|on end|edge|side", posture.lower()) is not None
 
 
 def kind_of(posture: str) -> PostureKind:
     """What kind of posture `posture` is."""
     words = posture.lower()
-    if re.search(r"upright|right[ -]side[ -]up|right way up", words) or words == "on end" or "edge" in words:
+    if re.search(r"upright|vertically|right[ -]side[ -]up|right way up", words) or words == "on end" or "edge" in words:
         return "upright"
     if re.search(r"upside|bottom|face[ -]?down|inverted|upturned|overturned|flipped|turned over|head", words):
         return "upside_down"

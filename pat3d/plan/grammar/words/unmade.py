@@ -122,7 +122,7 @@ _QUALITIES = _words("""
     relationship relaxation relief reminder remnants repetition repose request requirement respect respite response
     result rhythm richness risk role romance routine ruggedness rule run rush safety sake sameness sanctuary
     satisfaction scale scenario scene scenery scent schedule seamlessness season section sensation sense serenity
-    series setting setup shade shadow shadows shape shapes sheen shift shimmer show side sight sign significance
+    series setting setup shade shadow shadows shape shapes sheen shift shimmer shine show side sight sign significance
     signs silence silhouette similarity simplicity situation size sizes skill softness solution sort sound source
     space spaces sparkle spectacle speed spirit splash splendor spot stability stage stain stains stance start state
     statement status step steps stillness storm story strategy strength stress structure struggle style styles
