@@ -120,21 +120,21 @@ class GrammarPlanner(Sparing):
         said, which = apposed(text, said)
         said, unlaid = laid_tables(text, said, self._nouns)
         spoken, talk = without_talk(said, self._nouns)
-        told = [with_distances(text, clause) for sentence in spoken for clause in self._clauses(text, sentence)]
+        told = [with_distances(text, clause) for sentence in spoken for clause in self._parts(text, sentence, spoken)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         world.notes += [*(f'not modelled: "{each}"' for each in away), *which, *halved, *distracting]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
-            world, other = self._read(text, clause, world, company)
+            world, other = self._read_less(text, clause, world, company, told)
             if other is not None:
                 others.append((at + 1, other))
         plans = [self._finished(prompt, world)]
         for at, other in others[:1]:
             try:
                 for clause in told[at:]:
-                    other, _ = self._read(text, clause, other, company)
+                    other, _ = self._read_less(text, clause, other, company, told)
                 second = self._finished(prompt, other)
             except PromptError:
                 continue

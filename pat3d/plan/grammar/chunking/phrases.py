@@ -346,6 +346,10 @@ class PhraseReader:
             return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
+        packed = self._nouns.match(PACKED.get(inner.head, "").split()) if head in lexicon.DETACHED else None
+        if packed is not None and inner.kind == "background":
+            # "the cap of salt"
+            return replace(inner, kind="object", noun=packed.noun, said=packed.said, substance="", part=head), after
         part = any(word in lexicon.PARTS for word in singular)
         if known is None:
             part = part and (inner.definite or not plural)

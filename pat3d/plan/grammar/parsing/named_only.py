@@ -29,6 +29,9 @@ _COUNTING = frozenset({
 })  # fmt: skip
 """Words by which there are more or fewer things than the phrases of a sentence say."""
 
+_DENYING = frozenset({"without", "no", "any", "instead", "omit", "skip", "exclude", "rather", "nobody", "nothing"})
+"""Words behind which something is not there."""
+
 
 def named_only(
     text: str, tokens: Sequence[Token], nouns: Nouns, number: int, *, asked: bool = False
@@ -43,7 +46,7 @@ def named_only(
         inserted
         or at_fault < 0
         or tokens[at_fault].text in lexicon.PRONOUNS
-        or _is_thing(tokens, at_fault)
+        or is_thing(tokens, number)
         or Tails(tokens, nouns, {}).unknown()
     ):
         return None
@@ -67,6 +70,25 @@ def named_only(
         return None
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
     return [*there, *told[1:], tokens[-1]]
+
+
+def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """The things that `tokens` of one sentence name as "there is a cup and a plate"; empty without any.
+
+    "Without a lid", "leave out the knives" name what is not there.
+    """
+    reader = PhraseReader(text, [*tokens, *[tokens[-1]] * (LONGEST_LINK + 4)], nouns)
+    told: list[Token] = []
+    at, denied = 0, False
+    while at < len(tokens) - 1:
+        word = tokens[at].text
+        denied = (denied and not tokens[at].mark) or word in _DENYING or (word, tokens[at + 1].text) == ("leave", "out")
+        read = None if tokens[at].mark or link_at(tokens, at) else reader.read(at)
+        if read is not None and read[0].kind == "object" and not denied:
+            told += [replace(tokens[at], text="and"), *tokens[at : read[1]]]
+        at = read[1] if read is not None and read[0].kind == "object" else at + max(1, link_at(tokens, at))
+    there = [replace(tokens[0], text=word, mark=False) for word in ("there", "is")]
+    return [*there, *told[1:], tokens[-1]] if told else []
 
 
 def has_verb(tokens: Sequence[Token], nouns: Nouns) -> bool:
@@ -97,8 +119,11 @@ def _is_verb(word: str) -> bool:
     return word in FINITE or word in lexicon.HAVING or base_verb(word) is not None or word.endswith(("ing", "ed"))
 
 
-def _is_thing(tokens: Sequence[Token], at: int) -> bool:
-    """Whether the word at `at` is the head of "a corner structure": what cannot be made is no manner of speaking."""
+def is_thing(tokens: Sequence[Token], number: int) -> bool:
+    """Whether word `number` is the head of "a corner structure": what cannot be made is no manner of speaking."""
+    at = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
+    if at < 0 or is_quality(tokens[at].text):
+        return False
     words = [token.text for token in tokens]
     ends = tokens[at + 1].mark or words[at + 1] in ("and", "with") or link_at(tokens, at + 1) > 0
     counted = {"a", "an", *lexicon.NUMBERS} & {*words[max(0, at - 3) : at]}

@@ -1,0 +1,44 @@
+"""Parts of a sentence that may be left unread, so that the rest is read: "before it burns", "but leave out the knives"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from pat3d.plan.grammar.rewriting.instructions import known_verb
+from pat3d.plan.grammar.words.boundaries import link_at
+from pat3d.plan.grammar.words.lexing import Span, Token
+
+_CONDITIONS = frozenset({"if", "unless", "whichever", "whenever", "provided", "when"})
+"""Words that open what only may be so."""
+_OPENING = _CONDITIONS | {
+    "before", "after", "while", "since", "because", "so", "until", "till", "although", "though", "wherever", "where",
+    "except", "but", "whereas", "once", "instead", "without", "which", "that", "who", "and", "then",
+}  # fmt: skip
+"""Words that open a part of a sentence that is said of the rest."""
+_COUNTING = frozenset({"all", "every", "each", "none", "neither", "either", "or"})
+"""Words without which it is another number that is told of."""
+
+
+def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, open_question: bool = False) -> list[Span]:
+    """What may be left unread of `tokens` of one sentence so that word `number` of the prompt is, shortest first.
+
+    What a comma sets off is so of what is `instructed` alone: "three pots, the smallest in the largest" tells of pots.
+    """
+    words, last = [token.text for token in tokens], len(tokens) - 1
+    fault = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
+    opening = _CONDITIONS if open_question else _OPENING
+    made: set[Span] = set()
+    for at in range(last):
+        opens = words[at] in opening and not any(link_at(tokens, n) == at - n for n in range(max(0, at - 4), at))
+        if not opens and not (instructed and not open_question and words[at] == ","):
+            continue
+        # "Before it rains, put ...": its comma goes with it.
+        ends = [n for n in range(at + 1, last + 1) if tokens[n].mark or (words[n] == "and" and known_verb(words[n + 1]))]
+        ends = ends if at else [end + 1 for end in ends if words[end] == ","]
+        start = at
+        while start and opens and (words[start - 1] == "," or words[start - 1] in _OPENING):
+            # "... so that there are six"
+            start -= 1
+        made |= {(start, end) for end in ends if fault < 0 or start <= fault < end}
+    kept = [span for span in made if not {*words[slice(*span)]} & _COUNTING and span[1] - span[0] > 1]
+    return sorted(kept, key=lambda span: (span[1] - span[0], span))
