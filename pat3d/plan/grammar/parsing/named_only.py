@@ -10,14 +10,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from pat3d.plan.grammar.chunking.phrases import Phrase, PhraseReader
+from pat3d.plan.grammar.chunking.phrases import PhraseReader
 from pat3d.plan.grammar.rewriting.tails import Tails
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
-from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.boundaries import link_at
+from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE, LONGEST_LINK
-from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers, is_modifier
-from pat3d.plan.grammar.words.unmade import base_verb, is_quality, makes_nothing
+from pat3d.plan.grammar.words.unmade import base_verb, is_quality
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _COUNTING = frozenset({
@@ -25,7 +24,7 @@ _COUNTING = frozenset({
     "one", "ones", "rest", "none", "more", "fewer", "less", "without", "instead", "or", "no", "not", "nothing",
     "nobody", "never", "if", "unless", "whether", "whichever", "whatever", "except", "apart", "minus", "all",
     "respectively", "same", "order", "remaining", "replaced", "missing", "gone", "removed", "lacks", "absent",
-    "partner", "mate", "labelled", "labeled", "marked", "until",
+    "partner", "mate", "labelled", "labeled", "marked", "until", "unlike",
 })  # fmt: skip
 """Words by which there are more or fewer things than the phrases of a sentence say."""
 
@@ -33,43 +32,16 @@ _DENYING = frozenset({"without", "no", "any", "instead", "omit", "skip", "exclud
 """Words behind which something is not there."""
 
 
-def named_only(
-    text: str, tokens: Sequence[Token], nouns: Nouns, number: int, *, asked: bool = False
-) -> list[Token] | None:
-    """The things that `tokens` of one sentence name as "there is a cup and a plate"; None where that is not all.
+def names_all(tokens: Sequence[Token], nouns: Nouns, number: int, *, asked: bool = False) -> bool:
+    """Whether what `tokens` of one sentence name is all that it tells of, whatever it tells of that.
 
     Word `number` of the prompt is where its reading fails. What is `asked` for has lost its verb.
     """
-    at_fault = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
+    fault = next((token.text for token in tokens if token.number == number and not token.mark), "")
     inserted = any(one.text == "and" and two.mark for one, two in pairwise(tokens))
-    if (
-        inserted
-        or at_fault < 0
-        or tokens[at_fault].text in lexicon.PRONOUNS
-        or is_thing(tokens, number)
-        or Tails(tokens, nouns, {}).unknown()
-    ):
-        return None
-    reader = PhraseReader(text, [*tokens, *[tokens[-1]] * (LONGEST_LINK + 4)], nouns)
-    told: list[Token] = []
-    known: set[tuple[str, Modifiers]] = set()
-    at = 0
-    while at < len(tokens) - 1:
-        size = link_at(tokens, at)
-        read = None if size or tokens[at].mark else reader.read(at)
-        words = [token.text for token in tokens[at : read[1] if read else at + max(size, 1)]]
-        if {*words} & (_COUNTING - ({"one"} if read else set())) or (not size and not _heard(words, read, nouns)):
-            return None
-        if read is not None and read[0].kind == "object":
-            thing = read[0].noun, read[0].modifiers
-            if not (read[0].definite and known & {thing, (thing[0], NO_MODIFIERS)}):
-                told += [replace(tokens[at], text="and"), *tokens[at : read[1]]]
-            known |= {thing, (thing[0], NO_MODIFIERS)} if thing[1] == NO_MODIFIERS else {thing}
-        at += len(words)
-    if not told or not (asked or has_verb(tokens, nouns)):
-        return None
-    there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
-    return [*there, *told[1:], tokens[-1]]
+    counted = {token.text for token in tokens} & _COUNTING
+    unsaid = inserted or counted or not fault or fault in lexicon.PRONOUNS or is_thing(tokens, number)
+    return not unsaid and (asked or has_verb(tokens, nouns)) and not Tails(tokens, nouns, {}).unknown()
 
 
 def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -83,7 +55,13 @@ def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
     while at < len(tokens) - 1:
         word = tokens[at].text
         denied = (denied and not tokens[at].mark) or word in _DENYING or (word, tokens[at + 1].text) == ("leave", "out")
-        read = None if tokens[at].mark or link_at(tokens, at) else reader.read(at)
+        before = tokens[at - 1].text if at else ""
+        # "its handle shouldn't stick out", "if you can"
+        does = before in lexicon.MODALS or before.endswith("n't") or "you" in (before, word)
+        read = None if tokens[at].mark or link_at(tokens, at) or does else reader.read(at)
+        while read is not None and read[0].kind == "unknown" and read[1] > at + 1:
+            # "the keys wherever the wallet is"
+            read = PhraseReader(text, [*tokens[: read[1] - 1], *[tokens[-1]] * (LONGEST_LINK + 4)], nouns).read(at)
         if read is not None and read[0].kind == "object" and not denied:
             told += [replace(tokens[at], text="and"), *tokens[at : read[1]]]
         at = read[1] if read is not None and read[0].kind == "object" else at + max(1, link_at(tokens, at))
@@ -94,25 +72,6 @@ def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token
 def has_verb(tokens: Sequence[Token], nouns: Nouns) -> bool:
     """Whether one of `tokens` may be a verb and names nothing."""
     return any(_is_verb(token.text) and nouns.match([token.text]) is None for token in tokens)
-
-
-def _heard(words: Sequence[str], read: tuple[Phrase, int] | None, nouns: Nouns) -> bool:
-    """Whether `words`, of the phrase that was `read` if they are one, name nothing but that."""
-    if read is None:
-        return all((_is_nothing(word) and nouns.match([word]) is None) or not word[0].isalpha() for word in words)
-    phrase = read[0]
-    if phrase.kind == "object":
-        named = [found.noun for word in words if (found := nouns.match([word])) is not None and not is_modifier(word)]
-        plain = all(_is_nothing(word) or nouns.match([word]) is not None for word in words)
-        return plain and all(noun == phrase.noun or noun in phrase.noun for noun in named)
-    head = {phrase.head, *singulars(phrase.head)}
-    nothing = phrase.kind in ("part", "background") or is_quality(phrase.head) or bool(head & lexicon.PARTS)
-    nothing = nothing or phrase.head in lexicon.PRONOUNS or not phrase.determined
-    return nothing and not head & (lexicon.STACK_NOUNS | lexicon.MEALS) and all(_is_nothing(word) for word in words)
-
-
-def _is_nothing(word: str) -> bool:
-    return makes_nothing(word) or is_modifier(word) or word in lexicon.NUMBERS or word in JOINERS or word.isdecimal()
 
 
 def _is_verb(word: str) -> bool:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.commands import commanded
 from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens
 from pat3d.plan.grammar.rewriting.errands import errands, left_alone
@@ -62,8 +63,7 @@ _WORKING = frozenset({"wipe", "wash", "scrub", "rinse", "stir", "shake", "dump",
                       "slide", "carry", "retrieve", "get", "hold", "deliver", "relocate", "turn", "rotate", "flip",
                       "load", "unload", "deposit", "stow", "shift", "separate", "swap", "discard", "tilt", "align",
                       "arrange", "release", "wrap", "tie", "untie", "unstack", "lay", "transport", "return", "lean",
-                      "slice", "heat", "cook", "mix", "scoop", "store", "distribute", "restock", "refill",
-                      "discard"})  # fmt: skip
+                      "slice", "heat", "cook", "mix", "scoop", "store", "distribute", "restock", "refill"})  # fmt: skip
 """Verbs that open a prompt before a bare noun, and describe none: "wipe plate with towel"."""
 _WITH_ANOTHER = frozenset({"wipe", "scrub", "rinse", "stir", "squeeze", "unfold", "pour", "unscrew", "unplug", "shake"})
 """Those that are never nouns, so that they follow another instruction: "pick up sponge and wipe shoe"."""
@@ -123,8 +123,8 @@ class Clause:
     """Whether that names all that it is about: "tidy up: put the pens in the cup"."""
     then: bool = False
     """Whether the sentence goes on with what is to be done then, so that this is a deed and no scene."""
-    unread: bool = False
-    """Whether it cannot be read, so that only what it names is there."""
+    unread: PromptError | None = None
+    """Why a sentence cannot be told in clauses, which is read in part then."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:

@@ -1,4 +1,4 @@
-"""Parts of a sentence that may be left unread, so that the rest is read: "before it burns", "but leave out the knives"."""
+"""Parts of a sentence without which the rest of it is read: "before it burns", "but leave out the knives"."""
 
 from __future__ import annotations
 
@@ -12,31 +12,34 @@ _CONDITIONS = frozenset({"if", "unless", "whichever", "whenever", "provided", "w
 """Words that open what only may be so."""
 _OPENING = _CONDITIONS | {
     "before", "after", "while", "since", "because", "so", "until", "till", "although", "though", "wherever", "where",
-    "except", "but", "whereas", "once", "instead", "without", "which", "that", "who", "and", "then",
+    "except", "excluding", "apart", "but", "whereas", "once", "instead", "without", "which", "that", "who",
 }  # fmt: skip
 """Words that open a part of a sentence that is said of the rest."""
 _COUNTING = frozenset({"all", "every", "each", "none", "neither", "either", "or"})
 """Words without which it is another number that is told of."""
 
 
-def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, open_question: bool = False) -> list[Span]:
+def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, opened: bool) -> list[Span]:
     """What may be left unread of `tokens` of one sentence so that word `number` of the prompt is, shortest first.
 
     What a comma sets off is so of what is `instructed` alone: "three pots, the smallest in the largest" tells of pots.
+    Of a question that is `opened` it is what only may be so: "if you can".
     """
     words, last = [token.text for token in tokens], len(tokens) - 1
     fault = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
-    opening = _CONDITIONS if open_question else _OPENING
+    opening = _CONDITIONS if opened else _OPENING
     made: set[Span] = set()
     for at in range(last):
         opens = words[at] in opening and not any(link_at(tokens, n) == at - n for n in range(max(0, at - 4), at))
-        if not opens and not (instructed and not open_question and words[at] == ","):
+        if not opens and not (instructed and not opened and words[at] in (",", "and", "then")):
             continue
         # "Before it rains, put ...": its comma goes with it.
-        ends = [n for n in range(at + 1, last + 1) if tokens[n].mark or (words[n] == "and" and known_verb(words[n + 1]))]
+        deeds = [n for n in range(at + 1, last) if words[n] == "and" and known_verb(words[n + 1])]
+        # "... that was not rinsed into the box"
+        ends = [n for n in range(at + 1, last + 1) if tokens[n].mark or n in deeds or words[n] in ("into", "onto")]
         ends = ends if at else [end + 1 for end in ends if words[end] == ","]
         start = at
-        while start and opens and (words[start - 1] == "," or words[start - 1] in _OPENING):
+        while start and opens and words[start - 1] in _OPENING | {",", "and", "then"}:
             # "... so that there are six"
             start -= 1
         made |= {(start, end) for end in ends if fault < 0 or start <= fault < end}
