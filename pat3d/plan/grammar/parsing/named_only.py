@@ -24,7 +24,7 @@ _COUNTING = frozenset({
     "one", "ones", "rest", "none", "more", "fewer", "less", "without", "instead", "or", "no", "not", "nothing",
     "nobody", "never", "if", "unless", "whether", "whichever", "whatever", "except", "apart", "minus", "all",
     "respectively", "same", "order", "remaining", "replaced", "missing", "gone", "removed", "lacks", "absent",
-    "partner", "mate", "labelled", "labeled", "marked", "until", "unlike",
+    "partner", "mate", "labelled", "labeled", "marked", "until", "unlike", "such",
 })  # fmt: skip
 """Words by which there are more or fewer things than the phrases of a sentence say."""
 
@@ -39,8 +39,15 @@ def names_all(tokens: Sequence[Token], nouns: Nouns, number: int, *, asked: bool
     """
     fault = next((token.text for token in tokens if token.number == number and not token.mark), "")
     inserted = any(one.text == "and" and two.mark for one, two in pairwise(tokens))
-    counted = {token.text for token in tokens} & _COUNTING
-    unsaid = inserted or counted or not fault or fault in lexicon.PRONOUNS or is_thing(tokens, number)
+    counted = {token.text for token in tokens} & (_COUNTING | lexicon.MEALS)
+    unsaid = (
+        inserted
+        or counted
+        or not fault
+        or fault.endswith("n't")
+        or fault in lexicon.PRONOUNS
+        or is_thing(tokens, number)
+    )
     return not unsaid and (asked or has_verb(tokens, nouns)) and not Tails(tokens, nouns, {}).unknown()
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from pat3d.plan.grammar.rewriting.instructions import known_verb
+from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Span, Token
 
@@ -12,7 +13,7 @@ _CONDITIONS = frozenset({"if", "unless", "whichever", "whenever", "provided", "w
 """Words that open what only may be so."""
 _OPENING = _CONDITIONS | {
     "before", "after", "while", "since", "because", "so", "until", "till", "although", "though", "wherever", "where",
-    "except", "excluding", "apart", "but", "whereas", "once", "instead", "without", "which", "that", "who",
+    "except", "excluding", "apart", "but", "whereas", "once", "instead", "without",
 }  # fmt: skip
 """Words that open a part of a sentence that is said of the rest."""
 _COUNTING = frozenset({"all", "every", "each", "none", "neither", "either", "or"})
@@ -27,7 +28,7 @@ def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, open
     """
     words, last = [token.text for token in tokens], len(tokens) - 1
     fault = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
-    opening = _CONDITIONS if opened else _OPENING
+    opening = _CONDITIONS if opened else _OPENING | (lexicon.RELATIVES if instructed else frozenset())
     made: set[Span] = set()
     for at in range(last):
         opens = words[at] in opening and not any(link_at(tokens, n) == at - n for n in range(max(0, at - 4), at))
