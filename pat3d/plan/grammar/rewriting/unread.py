@@ -28,7 +28,7 @@ def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, open
     """
     words, last = [token.text for token in tokens], len(tokens) - 1
     fault = next((at for at, token in enumerate(tokens) if token.number == number and not token.mark), -1)
-    opening = _CONDITIONS if opened else _OPENING | (lexicon.RELATIVES if instructed else frozenset())
+    opening = _CONDITIONS if opened else _OPENING | lexicon.RELATIVES
     made: set[Span] = set()
     for at in range(last):
         opens = words[at] in opening and not any(link_at(tokens, n) == at - n for n in range(max(0, at - 4), at))
@@ -43,6 +43,11 @@ def unread_spans(tokens: Sequence[Token], number: int, *, instructed: bool, open
         while start and opens and words[start - 1] in _OPENING | {",", "and", "then"}:
             # "... so that there are six"
             start -= 1
+        # "A dog that doesn't sit on the sofa" is not of a dog and a sofa.
+        places = [
+            n for n in range(at, last) if words[at] in lexicon.RELATIVES and not instructed and link_at(tokens, n)
+        ]
+        ends = [end for end in ends if not any(n < end for n in places)]
         made |= {(start, end) for end in ends if fault < 0 or start <= fault < end}
     kept = [span for span in made if not {*words[slice(*span)]} & _COUNTING and span[1] - span[0] > 1]
     return sorted(kept, key=lambda span: (span[1] - span[0], span))
