@@ -253,8 +253,7 @@ class PhraseReader:
             plural = match.plural and match.said not in lexicon.PLURAL_ONLY
             own = read_modifiers(rest, hidden)
             return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
-        cut = len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1])
-        if cut:
+        if len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1]):
             # "three orange wedges"
             whole = self._simple(run[:-1], count)
             said = replace(whole.modifiers, adjectives=(*whole.modifiers.adjectives, head))
