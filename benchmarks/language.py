@@ -190,7 +190,7 @@ def _task(task: str, plan: ScenePlan) -> list[str]:
     if kinds == "none":
         return [f"task {plan.task}"] if plan.task else []
     if plan.task is None:
-        reasons = ("not modelled", "several tasks", "read as the scene to make")
+        reasons = ("not modelled", "no more is made of it", "several tasks", "read as the scene to make")
         return [] if any(reason in note for note in plan.notes for reason in reasons) else ["no task"]
     nouns = {obj.name: obj.noun for obj in plan.objects}
     wanted = [_wanted(name.strip()) for name in names.split(",")]

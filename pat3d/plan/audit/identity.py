@@ -235,7 +235,8 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
                 yield 0, f'"{said}" is made as a "{obj.noun}"'
                 break
         for said, whole in _WORN.items():
-            if obj.noun == said and {*whole.split()} & {*it.said.words} and "baseball" not in words:
+            worn = obj.noun == said and {*whole.split()} & {*it.said.words} and "baseball" not in words
+            if worn and words[-1] in it.said.words:
                 yield it.said.words.index(words[-1]), f'"{said}" is made as one to wear'
         alone = _BARE & {words[-1], *singulars(words[-1])} if words and not {*obj.noun.split()} & {*words} else ()
         for said in sorted(alone):

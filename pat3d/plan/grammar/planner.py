@@ -35,7 +35,6 @@ from pat3d.plan.grammar.rewriting.laid_tables import laid_tables
 from pat3d.plan.grammar.rewriting.lettering import lettering
 from pat3d.plan.grammar.rewriting.list_frames import listed_plainly
 from pat3d.plan.grammar.rewriting.manners import without_manners
-from pat3d.plan.grammar.rewriting.open_questions import exception_at
 from pat3d.plan.grammar.rewriting.paraphrase import plainer
 from pat3d.plan.grammar.rewriting.plain_words import in_plain_words
 from pat3d.plan.grammar.rewriting.remarks import Remarks
@@ -120,21 +119,21 @@ class GrammarPlanner(Sparing):
         said, which = apposed(text, said)
         said, unlaid = laid_tables(text, said, self._nouns)
         spoken, talk = without_talk(said, self._nouns)
-        told = [with_distances(text, clause) for sentence in spoken for clause in self._clauses(text, sentence)]
+        told = [with_distances(text, clause) for sentence in spoken for clause in self._parts(text, sentence)]
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         world.notes += [*(f'not modelled: "{each}"' for each in away), *which, *halved, *distracting]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
-            world, other = self._read(text, clause, world, company)
+            world, other = self._read_less(text, clause, world, company, told)
             if other is not None:
                 others.append((at + 1, other))
         plans = [self._finished(prompt, world)]
         for at, other in others[:1]:
             try:
                 for clause in told[at:]:
-                    other, _ = self._read(text, clause, other, company)
+                    other, _ = self._read_less(text, clause, other, company, told)
                 second = self._finished(prompt, other)
             except PromptError:
                 continue
@@ -152,20 +151,8 @@ class GrammarPlanner(Sparing):
         sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
         sentence, manners = without_manners(sentence, self._nouns)
         denied = tuple(quoted(text, span) for span in (*denials, *manners))
-        try:
-            told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
-            return [replace(told[0], aside=(*denied, *told[0].aside)), *told[1:]]
-        except UnreadError as error:
-            failure = error
-        excepted = exception_at(sentence)
-        for start, end in [*([excepted] if excepted else ()), *Tails(sentence, self._nouns, {}).around(failure.number)]:
-            kept = without(sentence, [(start, end)])
-            negated = (start, end) == excepted or (sentence[start].text == "," and sentence[start + 1].text == "not")
-            if (negated or sentence[start].text in lexicon.RELATIVES) and Remarks(kept, self._nouns).things():
-                told = clauses(text, plainer(text, kept, self._nouns), self._nouns)
-                aside = (*denied, quoted(text, sentence[start:end]), *told[0].aside)
-                return [replace(told[0], aside=aside), *told[1:]]
-        raise failure
+        told = clauses(text, plainer(text, sentence, self._nouns), self._nouns)
+        return [replace(told[0], aside=(*denied, *told[0].aside)), *told[1:]]
 
     def _finished(self, prompt: str, world: World) -> ScenePlan:
         try:
@@ -234,9 +221,8 @@ class GrammarPlanner(Sparing):
         if told := self._beside(text, clause, world, company, tails.unrelated(failure.number)):
             return told
         fault = first if isinstance(first, UnknownNounError) else self._fault(clause, failure)
-        for less in (self._in_pieces, self._named_only):
-            if (told := less(text, clause, world, company, fault)) is not None:
-                return told
+        if (told := self._in_pieces(text, clause, world, company, fault)) is not None:
+            return told
         raise fault
 
     def _beside(

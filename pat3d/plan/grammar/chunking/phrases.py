@@ -24,8 +24,7 @@ from pat3d.plan.grammar.words.shapes import PYRAMID, RINGS, USUAL_PYRAMID, can_b
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 PhraseKind = Literal["object", "background", "items", "part", "pieces", "pronoun", "unknown"]
-_FURTHER = (["second"], ["third"], ["fourth"], ["fifth"])
-"""What one more of a kind is called."""
+_FURTHER = (["second"], ["third"], ["fourth"], ["fifth"])  # what one more of a kind is called
 _FIGURES = ("figure", "figures", "replica", "replicas")
 _PLAYERS = (["cat"], ["pet"], ["baby"])  # whose toys do not look like them
 _CUTS = frozenset({"wedge", "slice", "chunk", "segment", "half"})
@@ -254,8 +253,7 @@ class PhraseReader:
             plural = match.plural and match.said not in lexicon.PLURAL_ONLY
             own = read_modifiers(rest, hidden)
             return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
-        cut = len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1])
-        if cut:
+        if len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1]):
             # "three orange wedges"
             whole = self._simple(run[:-1], count)
             said = replace(whole.modifiers, adjectives=(*whole.modifiers.adjectives, head))
@@ -346,6 +344,9 @@ class PhraseReader:
             return replace(inner, count=amount, rows=int(rows) or inner.rows, vague=inner.vague,
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         known = self._nouns.longest(words)
+        pack = PACKED.get(inner.head, "") if head in lexicon.DETACHED and inner.kind == "background" else ""
+        if (packed := self._nouns.match(pack.split())) is not None:  # "the cap of salt"
+            return replace(inner, kind="object", noun=packed.noun, said=packed.said, substance="", part=head), after
         part = any(word in lexicon.PARTS for word in singular)
         if known is None:
             part = part and (inner.definite or not plural)

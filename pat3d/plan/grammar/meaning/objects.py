@@ -236,7 +236,10 @@ class Maker:
         modifiers, count, noted = phrase.modifiers, phrase.count, True
         plural = phrase.plural or (phrase.kind == "unknown" and phrase.head.endswith("s") and not phrase.determined)
         if count is None:
-            several = plural or phrase.height is not None or (bool(phrase.cycle) and not phrase.determined)
+            # "Pick up toy animal" is of one, "pick up fruit" of some.
+            bare = bool(phrase.cycle) and not phrase.determined
+            mass = phrase.said in lexicon.MASS_GENERICS or phrase.said.endswith(("food", "fruit"))
+            several = plural or phrase.height is not None or (bare and mass)
             colours = len(modifiers.colours)
             if not several:
                 count, noted = 1, False

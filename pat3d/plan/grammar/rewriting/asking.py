@@ -389,7 +389,9 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             ones = {"one", "ones", *lexicon.NUMBERS} & {*words[but + size : end]}
             if ones or (words[at] == "all" and every == 1 == but - at):
                 return [sentence]
-            left = [*sentence[but + size : end], replace(sentence[-1])]
+            out = but > at + every + 2 and words[at + every : at + every + 2] == ["out", "of"]
+            where = [replace(sentence[but], text=word) for word in ("is", "in")] if out else []
+            left = [*sentence[but + size : end], *where, *sentence[at + every + 2 : but if out else 0], sentence[-1]]
             if words[at] == "all" and every == 1:
                 return [left, [*sentence[:but], *sentence[end:]]]
             everything = replace(sentence[at], text="everything", end=sentence[end - 1].end)

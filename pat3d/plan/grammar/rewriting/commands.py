@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.errands import left_alone
 from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back, together
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
@@ -22,6 +23,12 @@ _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("tak
 _FINDING = frozenset({"find", "locate", "choose", "select", "get", "retrieve", "identify", "collect"})
 _KEEPING = {"keeping": "keep", "leaving": "leave", "keep": "keep", "leave": "leave"}
 _DOING = frozenset({"put", "place", "stack", "move", "pick", "take", "set", "pour", "open", "close", "grasp", "push"})
+_IDIOMS = {("throw", "away"): "discard", ("throw", "out"): "discard", ("toss", "out"): "discard",
+           ("toss", "away"): "discard", ("dispose", "of"): "discard", ("get", "rid", "of"): "discard",
+           ("let", "go", "of"): "release"}  # fmt: skip
+_GERUNDS = frozenset({"taking", "putting", "placing", "picking", "removing", "getting", "grabbing", "bringing",
+                      "inserting", "opening", "closing", "washing", "pouring"})  # fmt: skip
+"""Deeds that open a prompt before a bare noun, and describe none: "taking apples out of the bag"."""
 _SETTING = frozenset({"put", "place", "set", "lay", "arrange", "position", "stand", "add"})
 _THEN = frozenset({"then", "next", "now", "and", "finally", ",", "please", "also"})
 """What opens the next of several instructions."""
@@ -45,7 +52,7 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _parted(_given(_swapped(put_back(together(closed(_in_full(_kept(tokens))))))))
+    told = _parted(_given(_swapped(put_back(together(closed(_in_full(_kept(_idioms(tokens)))))))))
     return _handed(_fronted(_place_first(_sideways(_ordered(_told_once(_lined_up(_built(told))))))))
 
 
@@ -66,13 +73,26 @@ def allowed(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
+def _idioms(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "get rid of the cans" as "discard the cans", "let go of the cup" as "release the cup"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 3):
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "to")
+        size = next((len(said) for said in _IDIOMS if tuple(words[at : at + len(said)]) == said), 0) if led else 0
+        if size and not tokens[at + size].mark and not link_at(tokens, at + size):
+            deed = replace(tokens[at], text=_IDIOMS[tuple(words[at : at + size])], end=tokens[at + size - 1].end)
+            return _idioms([*tokens[:at], deed, *tokens[at + size :]])
+    return tokens
+
+
 def _in_full(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "putting a cup on a tray" as "put a cup on a tray", "then drop in a box" as "then drop it ..."."""
     words = [token.text for token in tokens]
     base = base_verb(words[0]) if words[0].endswith("ing") else None
     leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
     finite = any(word in lexicon.COPULAS and words[at - 1] not in ("that", "which") for at, word in enumerate(words))
-    if base in _DOING and words[1] in leads and not finite and "," not in words:
+    plain = words[0] in _GERUNDS and not tokens[1].mark and words[:2] not in (["washing", "machine"], ["washing", "up"])
+    if base and ((base in _DOING and words[1] in leads and "," not in words) or plain) and not finite:
         return [replace(tokens[0], text=base), *tokens[1:]]
     tokens = _by_doing(tokens)
     words = [token.text for token in tokens]
@@ -164,7 +184,7 @@ def _given(tokens: Sequence[Token]) -> Sequence[Token]:
         return tokens
     give = words.index("give")
     a = next((n for n in range(give + 2, min(give + 8, len(words) - 2)) if words[n] in ("a", "another")), 0)
-    deed = a + 1 + (words[a + 1] in ("good", "quick", "gentle", "little", "light", "firm"))
+    deed = a + 1 + (words[a + 1] in ("good", "quick", "gentle", "little", "light", "firm", "quarter", "half", "full"))
     to = words[give + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"} if a else False
     if not to or words[deed] not in _GIVEN or any(token.mark for token in tokens[give:deed]):
         return tokens
@@ -227,7 +247,7 @@ def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
     words = [token.text for token in tokens]
     for at in range(len(words) - 4):
         led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
-        both = all(base_verb(word) == word for word in (words[at], words[at + 2])) and words[at + 1] == "and"
+        both = all(base_verb(word) == word for word in (words[at], words[at + 2])) and words[at + 1] in ("and", "or")
         taken = words[at + 3] in ("up", "out")
         follower = words[at + 3 + taken] if at + 3 + taken < len(words) else "."
         if led and both and (follower in lexicon.DETERMINERS | lexicon.POSSESSIVES):
@@ -247,6 +267,12 @@ def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
         if goes and words[0] in ("the", "all", "both") and words[at + 1] in _PLACING and not tokens[at - 1].mark:
             # "The plates go into the sink."
             return [replace(tokens[0], text="put"), *tokens[:at], *tokens[at + 1 :]]
+        if words[at] in lexicon.MODALS and words[at + 1] in ("stay", "remain") and words[0] in lexicon.DEFINITE:
+            # "The cups can stay on the shelf", "the cups can stay where they are"
+            if link_at(tokens, at + 2):
+                return [*tokens[:at], replace(tokens[at], text="are", end=tokens[at + 1].end), *tokens[at + 2 :]]
+            there = [replace(tokens[0], text=word, end=tokens[at + 1].end) for word in ("there", "are")]
+            return [*there, *tokens[:at], *left_alone(tokens[at + 2 :])]
         asks = words[at] in ("should", "must", "shall")
         asks = asks or (words[at] in ("needs", "need", "has", "have") and words[at + 1] == "to")
         verb = at + 1 + (words[at + 1] == "to")

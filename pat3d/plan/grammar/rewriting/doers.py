@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.instructions import base_of, known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.unmade import base_verb
 
 _LETTING = frozenset({"have", "let", "make", "get", "ask", "tell", "command"})
 _WITH_TO = frozenset({"get", "ask", "tell", "command"})
@@ -39,7 +39,7 @@ def told_plainly(tokens: Sequence[Token]) -> list[Token]:
         if verb or unnamed:
             at = verb or at
             left = [*left[: at + 1], *_finished(left, at + 1)]
-            left[at] = replace(left[at], text=base_verb(left[at].text) or left[at].text)
+            left[at] = replace(left[at], text=base_of(left[at].text))
         made.append(left[at])
         at += 1
     return made
@@ -87,9 +87,9 @@ def _deed(tokens: Sequence[Token], at: int) -> int:
 def _is_told(tokens: Sequence[Token], verb: int, *, finite: bool) -> bool:
     """Whether a deed begins at token `verb`, with the ending of its person where it is `finite`."""
     word = tokens[min(verb, len(tokens) - 1)].text
-    base = base_verb(word)
-    own = base is not None and (word == base) != finite and word not in lexicon.COPULAS
-    return (own or (word == "put" and not finite)) and not tokens[verb + 1].mark
+    base = base_of(word)
+    own = known_verb(base) and (word == base) != finite and word not in lexicon.COPULAS
+    return own and not tokens[verb + 1].mark
 
 
 def _finished(tokens: Sequence[Token], at: int) -> list[Token]:
@@ -97,9 +97,9 @@ def _finished(tokens: Sequence[Token], at: int) -> list[Token]:
     made: list[Token] = []
     for n in range(at, len(tokens)):
         token = tokens[n]
-        base = base_verb(token.text) if tokens[n - 1].text in ("and", "then", ",") and n > at else None
+        base = base_of(token.text) if tokens[n - 1].text in ("and", "then", ",") and n > at else ""
         follower = tokens[min(n + 1, len(tokens) - 1)].text
         object_ = follower in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"} | _PARTICLES
-        again = base is not None and token.text != base and token.text.endswith("s") and object_
-        made.append(replace(token, text=base) if again and base is not None else token)
+        again = known_verb(base) and token.text != base and token.text.endswith("s") and object_
+        made.append(replace(token, text=base) if again else token)
     return made

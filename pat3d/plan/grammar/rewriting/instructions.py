@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.commands import commanded
 from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens
 from pat3d.plan.grammar.rewriting.errands import errands, left_alone
@@ -53,7 +54,7 @@ VERBS: dict[str, Manner] = {
                      "peel", "untie", "mix", "twist", "screw", "unscrew", "tilt", "spin", "roll",
                      "inspect", "measure", "weigh", "check", "ignore", "recycle", "ensure", "ensuring", "dispose",
                      "crush", "restore", "straighten", "bend", "break", "pair", "look", "point", "knock", "examine",
-                     "tip", "destack"), "other"),
+                     "tip", "destack", "restock", "refill"), "other"),
 }  # fmt: skip
 _CERTAIN = frozenset({"put", "pick", "move", "grasp", "grab", "bring", "take", "lift", "rotate", "transfer", "place",
                       "remove", "fetch"})  # fmt: skip
@@ -63,7 +64,7 @@ _WORKING = frozenset({"wipe", "wash", "scrub", "rinse", "stir", "shake", "dump",
                       "slide", "carry", "retrieve", "get", "hold", "deliver", "relocate", "turn", "rotate", "flip",
                       "load", "unload", "deposit", "stow", "shift", "separate", "swap", "discard", "tilt", "align",
                       "arrange", "release", "wrap", "tie", "untie", "unstack", "lay", "transport", "return", "lean",
-                      "slice", "heat", "cook", "mix", "scoop", "store"})  # fmt: skip
+                      "slice", "heat", "cook", "mix", "scoop", "store", "distribute", "restock", "refill"})  # fmt: skip
 """Verbs that open a prompt before a bare noun, and describe none: "wipe plate with towel"."""
 _WITH_ANOTHER = frozenset({"wipe", "scrub", "rinse", "stir", "squeeze", "unfold", "pour", "unscrew", "unplug", "shake"})
 """Those that are never nouns, so that they follow another instruction: "pick up sponge and wipe shoe"."""
@@ -123,6 +124,8 @@ class Clause:
     """Whether that names all that it is about: "tidy up: put the pens in the cup"."""
     then: bool = False
     """Whether the sentence goes on with what is to be done then, so that this is a deed and no scene."""
+    unread: PromptError | None = None
+    """Why a sentence cannot be told in clauses, which is read in part then."""
 
 
 def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
@@ -158,6 +161,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     if not starts:
         return [Clause(tokens=tuple(tokens))]
     made: list[Clause] = []
+    tools: list[Clause] = []
     if verb is None:
         made.append(Clause(tokens=(*tokens[: starts[0][0]], tokens[-1])))
     ends = [start for start, _ in starts[1:]] + [len(tokens) - 1]
@@ -192,9 +196,11 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         with_it, after = wielded(body, word, tokens[: max(start, 0)], nouns)
         if after:
             # "Push the ball with the bat": the bat lies by itself.
-            made.append(Clause(tokens=(*body[with_it + 1 : after], stop), first=not made))
+            tool = Clause(tokens=(*body[with_it + 1 : after], stop), first=not made)
+            # "Get it out with the stick and drop it in the box": what is dropped was named before.
+            (tools if body[0].text in ("it", "them") else made).append(tool)
             aside = (*aside, text[body[with_it].start : body[after - 1].end])
-            body = [*body[:with_it], *body[after:]]
+            body = [*body[: with_it - (body[with_it - 1].text in _PARTICLES)], *body[after:]]
         later = next((at for begin, at in starts if begin == end), 0)
         then = bool(later) and "then" in {token.text for token in tokens[end:later]}
         then = then and tokens[later + 1].text in lexicon.DEFINITE | {"it", "them"}
@@ -203,7 +209,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         heading = how and (manner == "sort" or (manner in ("other", "pick", "move", "make") and not about))
         made.append(Clause(tokens=(*body, stop), verb=word, manner=manner, said=whole, first=not made, aside=aside,
                            how=how, heading=heading, then=then))  # fmt: skip
-    return made
+    return [*made, *(replace(tool, first=False) for tool in tools)]
 
 
 def asked(tokens: Sequence[Token], nouns: Nouns, at: int = 0) -> str:
@@ -214,14 +220,15 @@ def asked(tokens: Sequence[Token], nouns: Nouns, at: int = 0) -> str:
 
 
 def _is_nameless(tokens: Sequence[Token], nouns: Nouns) -> bool:
-    """Whether only a verb may open `tokens`, whatever it means: "shelve the atlas", "thread a rope"."""
-    word, the = tokens[0].text, tokens[1].text in lexicon.DEFINITE | lexicon.POSSESSIVES
+    """Whether only a verb may open `tokens`, whatever it means: "shelve the atlas", "microwave a mug"."""
+    word, the = tokens[0].text, tokens[1].text in lexicon.DEFINITE | lexicon.POSSESSIVES | {"it", "them"}
     if word in lexicon.COMMANDS | lexicon.VERBS | JOINERS | FINITE or link_at(tokens, 0) or not word.isalpha():
         return False
     if the and (word in _ALSO_NOUNS or base_verb(word) == word):
         return True
     known = makes_nothing(word) or is_modifier(word) or is_quality(word) or word in lexicon.NUMBERS.keys() | _LEADING
-    return not known and not singulars(word) and (the or nouns.match([word]) is None)
+    named = the or tokens[1].text in ("a", "an") or nouns.match([word]) is None
+    return not known and not singulars(word) and named
 
 
 def _is_deed(word: str, nouns: Nouns) -> bool:
@@ -302,7 +309,8 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     if base not in VERBS:
         # A verb of which no task is known: "Trade the places of the cups".
         unknown = _is_deed(word, nouns) and word not in lexicon.COMMANDS | lexicon.VERBS | _NO_DEEDS
-        if opening and not at and (unknown or _is_nameless(tokens, nouns)):
+        goes_on = not opening and tokens[at - 1].text in ("and", "then")
+        if (opening or goes_on) and (unknown or _is_nameless(tokens[at:], nouns)):
             return at if follows else None
         return at if unknown and follows and (not opening or tokens[at].number == 1) else None
     follower, going = tokens[at + 1].text, VERBS[base] == "other" and nouns.match([word]) is None

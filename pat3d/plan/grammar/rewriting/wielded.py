@@ -16,7 +16,8 @@ _WORKING = frozenset({"push", "sweep", "drag", "nudge", "shove", "slide", "shift
 """Deeds that are done with a tool more often than to what a thing holds."""
 _TURNING = frozenset({"turn", "flip", "rotate", "tilt", "roll"})
 """Deeds that are done with a tool, or to what is told by what it holds."""
-_HANDLING = frozenset({"pick", "lift", "grab", "grasp", "take", "move", "put", "place", "transfer", "remove", "hold"})
+_HANDLING = frozenset({"pick", "lift", "grab", "grasp", "take", "move", "put", "place", "transfer", "remove", "hold",
+    "get"})  # fmt: skip
 _TOOLS = (
     "stick", "baseball bat", "bat", "hammer", "mallet", "knife", "kitchen knife", "tongs", "spatula", "broom", "mop",
     "brush", "paintbrush", "sponge", "towel", "dish towel", "rake", "shovel", "trowel", "ladle", "rod", "wrench",
@@ -35,6 +36,9 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
     """
     words = [token.text for token in body]
     for at in (n for n in range(1, len(words) - 1) if words[n] in ("with", "using")):
+        if words[at : at + 3] == ["using", "the", "light"] and words[at + 3 : at + 4] in (["from"], ["of"]):
+            # "Read the book using the light from the lamp"
+            return at + 3, next((n for n in range(at + 4, len(words)) if body[n].mark), len(words))
         leads = at + 1 + (words[at + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES)
         end = next(
             (n for n in range(leads, len(words)) if body[n].mark or words[n] == "and" or link_at(body, n)), len(words)
@@ -49,6 +53,8 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         )
         # "Open the box with the knife" may mean the box that has it; not so "the box by the lamp with the knife".
         placed = verb in ("open", "close") and any(link_at(body, n) for n in range(1, at))
+        # "Get it out with the stick"
+        placed = placed or (verb in _HANDLING and words[0] in ("it", "them"))
         tool = (verb in _WORKING | _TURNING or placed) and nouns.of_class(found.noun, _TOOLS)
         if taken or tool or words[at] == "using" or (verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING)):
             return at, end
