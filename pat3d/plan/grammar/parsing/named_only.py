@@ -68,13 +68,14 @@ def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> tuple[list
         # "its handle shouldn't stick out", "if you can"
         does = before in lexicon.MODALS or before.endswith("n't") or "you" in (before, word)
         read = None if tokens[at].mark or link_at(tokens, at) or does else reader.read(at)
+        lacking = read[0].words if read is not None and read[0].kind == "unknown" and read[0].determined else ""
         while read is not None and read[0].kind == "unknown" and read[1] > at + 1:
             # "the keys wherever the wallet is"
             read = PhraseReader(text, [*tokens[: read[1] - 1], *[tokens[-1]] * (LONGEST_LINK + 4)], nouns).read(at)
         if read is not None and read[0].kind == "object" and not denied:
             told += [replace(tokens[at], text="and"), *tokens[at : read[1]]]
-        elif read is not None and read[0].kind == "unknown" and read[0].determined and not denied:
-            missing.append(read[0].words)
+        elif lacking and not denied:
+            missing.append(lacking)
         at = read[1] if read is not None and read[0].kind == "object" else at + max(1, link_at(tokens, at))
     there = [replace(tokens[0], text=word, mark=False) for word in ("there", "is")]
     return ([*there, *told[1:], tokens[-1]] if told else []), missing
