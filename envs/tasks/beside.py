@@ -26,6 +26,7 @@ from pat3d.scene.relations import RELATION_WORDS, SIDES
 
 if TYPE_CHECKING:
     from pat3d.envs.physics.state import SimState, States
+    from pat3d.envs.tasks.beside_spots import Outlook
 
 RELATIONS = (*SIDES, "next_to")
 
@@ -58,7 +59,16 @@ class Beside(Task):
         also = worded("beside", it=it, where=f"beside {landmark}")[:2] if self.relation == "next_to" else ()
         return said + also
 
-    def check(self, scene: Scene) -> None:
+    def tree(self, scene: Scene) -> Scene:
+        """A scene in which things stand on one another as they do when this begins."""
+        return scene
+
+    def outlook(self, scene: Scene) -> Outlook:
+        """What the scene at rest tells of where the object may be put."""
+        return at_rest(scene, self.target, self.landmark)
+
+    def check_names(self, scene: Scene) -> None:
+        """Raise TaskError unless one of the objects can be put beside the other as far as the scene tree goes."""
         movable(scene, self.target)
         present(scene, self.landmark)
         if self.target == self.landmark:
@@ -67,7 +77,10 @@ class Beside(Task):
             raise TaskError(f'"{self.landmark}" stands on "{self.target}".')
         if carried := children(scene, self.target):
             raise TaskError(f'"{self.target}" carries "{carried[0]}" and cannot be put beside something on its own.')
-        view, words = at_rest(scene, self.target, self.landmark), RELATION_WORDS[self.relation]
+
+    def check(self, scene: Scene) -> None:
+        self.check_names(scene)
+        view, words = self.outlook(scene), RELATION_WORDS[self.relation]
         if related(self.relation, view.own, view.landmark):
             raise TaskError(f'"{self.target}" is {words} "{self.landmark}" already.')
         found = spots(self.relation, view)
@@ -76,7 +89,7 @@ class Beside(Task):
             raise TaskError(f'there is no room for "{self.target}" {words} "{self.landmark}": in the way is {met}.')
 
     def needs(self, scene: Scene) -> Needs:
-        view = at_rest(scene, self.target, self.landmark)
+        view = self.outlook(scene)
         found = spots(self.relation, view)
         x, y = found.free[0] if found.free else found.best
         tall = float(view.own.box.high[2] - view.own.box.low[2])
@@ -86,7 +99,7 @@ class Beside(Task):
         return Needs(grasp=(self.target,), visit=(above,), room=room, facing=self.relation in SIDES)
 
     def goals(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> list[Goal]:
-        view = at_present(state, self.target, self.landmark)
+        view = at_present(state, self.target, self.landmark, self.tree(state.scene))
         level = abs(float(view.own.box.low[2]) - view.surface.height) <= CONTACT_DEPTH
         upright = state.tilt(self.target) <= UPRIGHT_DEGREES
         if level and upright and self._carried(state) and related(self.relation, view.own, view.landmark):
@@ -99,14 +112,16 @@ class Beside(Task):
         ]
 
     def _carried(self, state: SimState) -> bool:
-        """Whether the target is on the surface on which the landmark stood at the start."""
-        carrier = carrier_of(state.scene, self.landmark)
+        """Whether the target is on the surface on which the landmark stands when this begins."""
+        carrier = carrier_of(self.tree(state.scene), self.landmark)
         return state.grounded(self.target) if carrier == GROUND else state.on_top(self.target, carrier)
 
     def judge(self, states: States) -> Judge:
         from pat3d.envs.tasks.beside_judge import BesideJudge
 
-        return BesideJudge(states, self.target, self.relation, self.landmark)
+        scene = states.world.scene
+        carrier = carrier_of(self.tree(scene), self.landmark)
+        return BesideJudge(states, self.target, self.relation, self.landmark, carrier, self.outlook(scene))
 
 
 def _nearly(scene: Scene, task: Beside) -> bool:

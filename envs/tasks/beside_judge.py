@@ -10,7 +10,7 @@ import numpy as np
 
 from pat3d.envs.physics import predicates
 from pat3d.envs.physics.snapshot import Array, Mask, Numbers, corners, floors
-from pat3d.envs.tasks.beside_spots import at_rest, carrier_of, spots
+from pat3d.envs.tasks.beside_spots import Outlook, spots
 from pat3d.envs.tasks.judges import REST_SECONDS, UPRIGHT
 from pat3d.envs.tasks.push_goals import AROUND, DIRECTIONS, hull
 from pat3d.envs.tasks.push_judge import STAYED
@@ -104,20 +104,25 @@ class BesideJudge(Judge):
     The other has to stay where it was when the judge began, within 5 cm, and upright. Progress: a fifth each for the
     hand's closeness to a grasp and the grasp (kept once the object is there), two fifths for the object's closeness to
     the best free spot as the scene is at rest, a fifth for resting in the relation; nothing when the other was moved.
+
+    Args:
+        states: the worlds.
+        target: name of the object.
+        relation: one of `beside.RELATIONS`.
+        landmark: name of the other.
+        carrier: what the other stands on when the object is put there, or the ground.
+        view: tells the best free spot.
     """
 
-    def __init__(self, states: States, target: str, relation: str, landmark: str) -> None:
+    def __init__(self, states: States, target: str, relation: str, landmark: str, carrier: str, view: Outlook) -> None:
         super().__init__(states)
-        scene = states.world.scene
         self._relation, self._related = relation, Related(states, relation, target, landmark)
         self._target, self._landmark = states.numbers[target], states.numbers[landmark]
         self._targets = np.full(states.count, self._target)
-        carrier = carrier_of(scene, landmark)
         self._floors = None if carrier == GROUND else floors(states.world, [(target, carrier)], "on")
-        view = at_rest(scene, target, landmark)
         found = spots(relation, view)
         spot = found.free[0] if found.free else found.best
-        above = float(centre_of_mass(scene, target)[2] - view.own.box.low[2])
+        above = float(centre_of_mass(states.world.scene, target)[2] - view.own.box.low[2])
         self._way = np.array([*(spot - view.landmark.centre), above])
         """Where the target's centre should get to [m]: along x and y from the landmark's, and above the surface."""
         self._before = np.full((states.count, 2), np.nan)

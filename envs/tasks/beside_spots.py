@@ -92,7 +92,7 @@ class Spots(NamedTuple):
 
 
 def carrier_of(scene: Scene, name: str) -> str:
-    """What an object stands on, or the ground.
+    """What an object stands on, or the ground, as far as the tree of a scene tells.
 
     Raises:
         TaskError: it stands on no surface on which something could be put beside it.
@@ -105,13 +105,17 @@ def carrier_of(scene: Scene, name: str) -> str:
     carrier = scene.parent(name)
     if carrier != GROUND and scene[carrier].asset.region("on") is None:
         raise TaskError(f'"{carrier}", on which "{name}" stands, has no top on which there is room.')
-    if carrier == GROUND and abs(float(points_of(scene, name)[:, 2].min())) > CONTACT_DEPTH:
-        raise TaskError(f'"{name}" does not stand on the ground, and nothing carries it.')
     return carrier
 
 
 def at_rest(scene: Scene, target: str, landmark: str) -> Outlook:
-    """The scene as it was loaded, on a workbench that is to be made as large as it takes; raises as `carrier_of`."""
+    """The scene as it was loaded, on a workbench that is to be made as large as it takes.
+
+    Raises:
+        TaskError: as `carrier_of`, and where the landmark floats.
+    """
+    if carrier_of(scene, landmark) == GROUND and abs(float(points_of(scene, landmark)[:, 2].min())) > CONTACT_DEPTH:
+        raise TaskError(f'"{landmark}" does not stand on the ground, and nothing carries it.')
     bench, its = bench_at_rest(scene, target), points_of(scene, target)[:, :2]
     if bench is not None:
         wide = float(np.ptp(its, axis=0).max()) + GAPS[-1]
@@ -126,10 +130,16 @@ def at_rest(scene: Scene, target: str, landmark: str) -> Outlook:
     )
 
 
-def at_present(state: SimState, target: str, landmark: str) -> Outlook:
-    """A world as it is now; raises as `carrier_of`."""
+def alone(scene: Scene, target: str, landmark: str) -> Outlook:
+    """The two as they are at rest, on a surface without end on which nothing else stands."""
+    own, its = (Seen.of(points_of(scene, name), centre_of_mass(scene, name)) for name in (target, landmark))
+    return Outlook(own=own, landmark=its, others={}, surface=Surface(height=float(its.box.low[2])))
+
+
+def at_present(state: SimState, target: str, landmark: str, tree: Scene) -> Outlook:
+    """A world as it is now, in which things stand on one another as the scene `tree` says; raises as `carrier_of`."""
     return _outlook(
-        state.scene,
+        tree,
         (target, landmark),
         points=state.points,
         centre=state.centre,

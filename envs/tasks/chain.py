@@ -11,6 +11,7 @@ import numpy as np
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Numbers
 from pat3d.envs.tasks.beside import Beside
+from pat3d.envs.tasks.beside_moved import BesideMoved, in_place
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
 from pat3d.envs.tasks.paraphrase import in_turn
 from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, rests_upon, steps_for
@@ -53,6 +54,11 @@ class Chain(Task):
     def names(self) -> tuple[str, ...]:
         return tuple(dict.fromkeys(name for step in self.steps for name in step.names))
 
+    @property
+    def turns(self) -> tuple[Task, ...]:
+        """The steps, each knowing what those before it move as far as that matters to it."""
+        return in_place(self.steps)
+
     def wordings(self, scene: Scene) -> tuple[str, ...]:
         said = [step.instruction(scene) for step in self.steps]
         together = [_at_once(scene, group) for group in _grouped(self.steps)]
@@ -60,16 +66,18 @@ class Chain(Task):
         return in_turn(said) if len(together) == len(said) else (*in_turn(said), *in_turn(together))
 
     def check(self, scene: Scene) -> None:
-        for step in self.steps:
+        turns = self.turns
+        for step in turns:
             step.check(scene)
         # What is beside something that is then taken away, with what it stands on or alone, is beside it no longer.
-        away = [step.names[0] for step in self.steps if not isinstance(step, Lift)]
-        for step in self.steps:
+        for step in turns:
             if isinstance(step, Beside):
-                _stays(scene, step, away)
+                since = turns.index(step.mover) + 1 if isinstance(step, BesideMoved) else 0
+                away = [one.names[0] for one in turns[since:] if not isinstance(one, Lift)]
+                _stays(step.tree(scene), step, away)
 
     def needs(self, scene: Scene) -> Needs:
-        needs = [step.needs(scene) for step in self.steps]
+        needs = [step.needs(scene) for step in self.turns]
         return Needs(
             grasp=tuple(dict.fromkeys(name for one in needs for name in one.grasp)),
             visit=tuple(dict.fromkeys(point for one in needs for point in one.visit)),
@@ -81,14 +89,14 @@ class Chain(Task):
         return steps_for(len(self.steps), control_freq)
 
     def goals(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> list[Goal]:
-        return next((goals for step in self.steps if (goals := step.goals(state, graspable, done))), [])
+        return next((goals for step in self.turns if (goals := step.goals(state, graspable, done))), [])
 
     def judge(self, states: States) -> Judge:
-        return ChainJudge(states, self.steps)
+        return ChainJudge(states, self.turns)
 
 
 def _stays(scene: Scene, step: Beside, away: list[str]) -> None:
-    """Raise TaskError where other steps move what something is put beside."""
+    """Raise TaskError where steps that move `away` take what something is put beside from where it stands."""
     for name in away:
         if name == step.landmark or (name != step.target and rests_upon(scene, step.landmark, name)):
             raise TaskError(f'"{step.spec}" cannot be a step of this chain: another step moves "{name}".')
@@ -143,8 +151,8 @@ class ChainJudge(Judge):
             due, passed = stage == number, stage > number
             target, goal = np.where(due, one.target, target), np.where(due[:, None], one.goal, goal)
             if number < last:
-                # Whether it is in or on its place, whatever has become of the hand since.
-                there = next(iter(one.predicates.values()))
+                # Whether it is in, on or beside its place, whatever has become of the hand since.
+                there = next(iter(one.predicates.values())) & one.predicates.get("landmark stays", True)
                 kept &= there | ~passed
                 done += passed & there
                 self._pass(np.flatnonzero(due & one.success), number + 1)

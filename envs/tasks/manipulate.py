@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Literal
 
 import numpy as np
 
@@ -109,13 +109,13 @@ class Place(Task):
 
     def told(self, scene: Scene, names: list[str]) -> tuple[str, ...]:
         """The wordings for several objects that go to the same place."""
-        how, where = _preposition(scene, self.where), the(scene, self.where)
+        how, where = preposition(scene, self.where), the(scene, self.where)
         return worded("place", it=listed([the(scene, name) for name in names]), how=how, where=where)
 
     def check(self, scene: Scene) -> None:
         check_move(scene, self.target, self.where)
         if scene.parent(self.target) == self.where:
-            raise TaskError(f'"{self.target}" is {_preposition(scene, self.where)} "{self.where}" already.')
+            raise TaskError(f'"{self.target}" is {preposition(scene, self.where)} "{self.where}" already.')
 
     def needs(self, scene: Scene) -> Needs:
         return Needs(grasp=(self.target,), visit=(above(scene, self.where),))
@@ -194,7 +194,7 @@ def check_move(scene: Scene, target: str, where: str) -> None:
         raise TaskError(f'"{covering[0]}" stands on "{where}" already and leaves no room for "{target}".')
 
 
-def _preposition(scene: Scene, where: str) -> str:
+def preposition(scene: Scene, where: str) -> Literal["on", "in"]:
     """What one says of things there: a plate has an inside too, but its first region is its top."""
     regions = scene[where].asset.regions
     return regions[0].kind if regions else "on"

@@ -13,7 +13,6 @@ pytest.importorskip("gymnasium")
 from scipy.spatial.transform import Rotation
 
 from pat3d.assets.shapes import box
-from pat3d.envs.env import TabletopEnv
 from pat3d.envs.physics.predicates import OWNERS, SUPPORT_ROW
 from pat3d.envs.physics.snapshot import Snapshot
 from pat3d.envs.physics.state import States
@@ -25,14 +24,10 @@ from pat3d.envs.tasks.registry import parse_task
 from pat3d.geometry.pose import Pose
 from pat3d.layout.lateral import Box, on_side
 from pat3d.layout.predicates import check_relations, relation_holds
-from pat3d.policies_eval.policies.policy import EpisodeStart
-from pat3d.policies_eval.policies.scripted import ScriptedPolicy
 from pat3d.scene.model import Relation
-from tests.envs.beside_scenes import CUBE, on_a_board, on_a_table
-from tests.envs.own_arm import own_arm
+from tests.envs.beside_scenes import CUBE, made, on_a_board, on_a_table, put, rest, scripted
 from tests.scenes import GAP, asset_of, placed, scene_of
 
-STILL = np.zeros(7, dtype=np.float32)
 AWAY = {"left_of": (-1, 0), "right_of": (1, 0), "in_front_of": (0, -1), "behind": (0, 1)}
 """Where each side is, for somebody who looks along +y."""
 
@@ -47,12 +42,6 @@ def boarded():
     return on_a_board()
 
 
-def made(scene, task: str, tmp_path_factory) -> TabletopEnv:
-    path = tmp_path_factory.mktemp("robots") / "arm.xml"
-    path.write_text(own_arm())
-    return TabletopEnv(scene=scene, robot=str(path), task=task)
-
-
 @pytest.fixture(scope="module")
 def env(table, tmp_path_factory):
     env = made(table, "beside:mug:left_of:plate", tmp_path_factory)
@@ -65,45 +54,6 @@ def on_board(boarded, tmp_path_factory):
     env = made(boarded, "beside:mug:right_of:plate", tmp_path_factory)
     yield env
     env.close()
-
-
-def put(env, name: str, at: tuple[float, float, float], quat=(1.0, 0.0, 0.0, 0.0)) -> dict:
-    """Set an object down with its frame at a point [m] while an episode goes on, and look."""
-    import mujoco
-
-    world, data = env.simulation.world, env.simulation.data
-    number = env.objects.index(name)
-    data.qpos[world.positions[number] : world.positions[number] + 7] = [*at, *quat]
-    data.qvel[world.velocities[number] : world.velocities[number] + 6] = 0.0
-    mujoco.mj_forward(env.simulation.model, data)
-    env.simulation.states.refresh()
-    return env.step(STILL)[4]
-
-
-def rest(env, steps: int = 25) -> dict:
-    """Nothing is done until the episode ends, or for so long."""
-    for _ in range(steps):
-        _, _, success, _, info = env.step(STILL)
-        if success:
-            break
-    return info
-
-
-def scripted(env, spec: str, seed: int = 1) -> dict:
-    """The scripted policy does a task; the last step's info."""
-    _, info = env.reset(seed=seed, options={"task": spec})
-    policy = ScriptedPolicy()
-    policy.reset(
-        EpisodeStart(
-            instruction=info["instruction"], task=spec, seed=seed, robot=env.robot, control="osc", action_size=7,
-            control_freq=20.0, env=env,
-        )
-    )  # fmt: skip
-    for _ in range(env.horizon):
-        _, _, success, _, info = env.step(policy.act({}))
-        if success:
-            break
-    return info
 
 
 @pytest.mark.parametrize("relation", RELATIONS)
