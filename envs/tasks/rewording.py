@@ -49,7 +49,7 @@ _TAKEN = ("pick", "unload", "retrieve", "carry", "handover")
 
 _READ_AS = {
     "place": "put", "stack": "put", "pick": "take", "retrieve": "take", "carry": "take", "handover": "take",
-    "lift": "take",
+    "lift": "take", "push": "beside",
 }  # fmt: skip
 """Kinds of task between which our reader of sentences does not tell."""
 
