@@ -144,7 +144,7 @@ def test_a_sentence_becomes_a_plan_whose_nouns_say_all(source, monkeypatch):
         assert plan.parent("teapot dinosaur") == "plate"
         assert any("0.6 m long" in note and "gramophone" in note for note in plan.notes)
         # The prompt has the adjective, so that no note says that it is left out.
-        assert not any("cute" in note for note in plan.notes)
+        assert not any("cute" in note for note in plan.notes if not note.startswith("worded like"))
         monkeypatch.setattr(sources, "MeshServers", lambda: source)
         source_of = sources.source_of
         monkeypatch.setattr(sources, "source_of", lambda noun: source if "mesh/" in noun else source_of(noun))

@@ -81,11 +81,12 @@ class GrammarPlanner(Sparing):
     ) -> None:
         """Plan with the nouns of `vocabulary`, by default the catalogue's; see the class for `allow_proxies`.
 
-        With `orders`, a mesh server is to make what has no noun.
+        With `orders`, a mesh server is to make what has no noun, and nothing stands in for that.
         """
         if vocabulary is None:
             vocabulary = catalogue_names()
-        self._nouns = Nouns(vocabulary)
+        # What a server makes needs nothing that stands in.
+        self._nouns = Nouns(vocabulary, standing_in=orders is None)
         self._likely = Plausible(self._nouns)
         self._maker = Maker(self._nouns, allow_proxies=allow_proxies, orders=orders)
         self._orders = orders

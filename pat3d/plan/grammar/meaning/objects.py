@@ -73,7 +73,7 @@ class Maker:
         group.items = [Item(group=group) for _ in range(count)]
         if count > 1 and phrase.said in ("grape", "grapes"):
             world.note(f'"{phrase.words}": every one of the {count} is made as a bunch.')
-        if {phrase.head, said} & (TWOFOLD - {noun}) or said in STAND_INS:
+        if {phrase.head, said} & (TWOFOLD - {noun}) or (said in STAND_INS and not ordered):
             size, scale = STAND_IN_SIZES.get(said), phrase.modifiers.scale
             measured = f" of {size * scale:.2g} m" if size and not phrase.modifiers.measures else ""
             world.note(f'"{phrase.words}" is made as {"an" if noun[0] in "aeiou" else "a"} "{noun}"{measured}.')

@@ -13,7 +13,6 @@ from pat3d.plan.grammar.words.stand_ins import STAND_INS
 from pat3d.scene.naming import APART
 
 _ALIASES = {
-    **STAND_INS,
     "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
     "desktop computer": "monitor", "desk top computer": "monitor", "pc": "laptop", "computer screen": "monitor",
     "brush": "paintbrush", "shoebox": "storage box", "shoe box": "storage box", "soda pop": "soda can",
@@ -93,8 +92,11 @@ class Match:
 class Nouns:
     """Looks words up in a vocabulary, plural or singular."""
 
-    def __init__(self, vocabulary: Vocabulary) -> None:
+    def __init__(self, vocabulary: Vocabulary, *, standing_in: bool = True) -> None:
+        """With `standing_in`, what is like a thing that has no noun stands in for it."""
         self._vocabulary = vocabulary
+        self._stand_ins = STAND_INS if standing_in else {}
+        self._aliases = {**self._stand_ins, **_ALIASES}
         self._classes: dict[Any, frozenset[str]] = {}
         # What a library calls "ycb/mug" is judged as a mug is.
         self._kin: dict[str, str] = dict(getattr(vocabulary, "kin", {}))
@@ -123,7 +125,7 @@ class Nouns:
                 one = "of" in words and name.split()[0] == words[0]
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not (whole or one))
             # Of the guesses the likelier first: capes are no caps.
-            if known is None and name in _ALIASES and (found := self.match(_ALIASES[name].split())):
+            if known is None and name in self._aliases and (found := self.match(self._aliases[name].split())):
                 return Match(noun=found.noun, said=name, plural=name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
@@ -184,7 +186,7 @@ class Nouns:
 
     def resolve(self, name: str) -> str | None:
         """Catalogue noun that `name` means, or None."""
-        known = self._vocabulary.find(name) or self._vocabulary.find(STAND_INS.get(name, ""))
+        known = self._vocabulary.find(name) or self._vocabulary.find(self._stand_ins.get(name, ""))
         return None if known is None else known.noun
 
     def own(self, noun: str) -> bool:
@@ -208,7 +210,8 @@ class Nouns:
             return (doubled,)
         if len(word) < _LONG_ENOUGH or not word.isalpha() or {word, *singulars(word)} & _NO_SLIPS:
             return ()
-        near = difflib.get_close_matches(word, STAND_INS, n=3, cutoff=0.8) if len(word) > _LONG_ENOUGH else ()
+        long = len(word) > _LONG_ENOUGH
+        near = difflib.get_close_matches(word, self._stand_ins, n=3, cutoff=0.8) if long else ()
         for name in (*self.nearest(word), *near):
             if any(_slipped(word, spelled) for spelled in (name, f"{name}s")):
                 return (name if word[-1] != "s" or name[-1] == "s" else f"{name}s",)
