@@ -9,8 +9,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import Clause
+from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _ACTORS = frozenset({"robot", "gripper", "manipulator"})
 _LIMBS = frozenset({"arm", "arms", "gripper", "hand", "hands", "base", "manipulator", "end", "effector"})
@@ -26,6 +28,16 @@ _DEGREES = frozenset({"closer", "closest", "nearer", "nearest", "further", "furt
 _MEANS = (("with",), ("using",), ("by",), ("with", "the", "help", "of"))
 _VIEWS = (("as", "seen", "from"), ("seen", "from"), ("viewed", "from"), ("from",), ("within",), ("facing",), ("for",),
           ("out", "of"), ("relative", "to"))  # fmt: skip
+
+
+def asked_of_the_robot(tokens: Sequence[Token], _: Nouns) -> list[Token]:
+    """`tokens` of a prompt with "can the robot reach it?" as "the robot can reach it?", where "can" names no can."""
+    made = list(tokens)
+    for at in range(len(made) - 3):
+        opens = not at or made[at - 1].mark
+        if opens and made[at].text in lexicon.MODALS and made[at + 1].text == "the" and made[at + 2].text in _ACTORS:
+            made[at : at + 3] = [*made[at + 1 : at + 3], made[at]]
+    return made
 
 
 def without_actor(text: str, told: Sequence[Clause]) -> tuple[list[Clause], list[str], list[str]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import partial
 
+from pat3d.plan.grammar.rewriting.acting import asked_of_the_robot
 from pat3d.plan.grammar.rewriting.amounts import worked_out
 from pat3d.plan.grammar.rewriting.carried_clauses import of_the_carried
 from pat3d.plan.grammar.rewriting.compounds import compounds
@@ -16,6 +17,7 @@ from pat3d.plan.grammar.rewriting.numbered import ordinals
 from pat3d.plan.grammar.rewriting.one_of_the_counted import of_the_counted
 from pat3d.plan.grammar.rewriting.restated import chessmen
 from pat3d.plan.grammar.rewriting.row_ends import at_row_ends
+from pat3d.plan.grammar.rewriting.set_off_shares import told_behind
 from pat3d.plan.grammar.rewriting.shorthand import known_again, out_of_brackets
 from pat3d.plan.grammar.rewriting.sided_names import by_side
 from pat3d.plan.grammar.rewriting.sized_names import by_size
@@ -39,8 +41,9 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     """
     rewritings: tuple[Rewriting, ...] = (
         partial(ordinals, text), compounds, partial(each_at_its_place, text), partial(out_of_brackets, text),
-        of_drinks, known_again, between_neighbours, of_the_counted, in_full, served, worked_out, subkinds,
-        by_side, by_size, stacked_likes, of_the_carried, by_rank, at_row_ends, of_unlike_rows, levels_of,
+        asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours, of_the_counted, in_full, served,
+        worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried, by_rank, at_row_ends, of_unlike_rows,
+        levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:

@@ -38,6 +38,28 @@ def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
+def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of a prompt with "four figs, one of which is dry, and a pear" as "four figs and a pear".
+
+    That "one of the figs is dry" is told behind: set off it would end the list, and the pear be somewhere else.
+    """
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 7):
+        which = next((n for n in (at + 1, at + 2) if words[n : n + 2] == ["of", "which"]), 0) if words[at] == "," else 0
+        number = at + 1 if which == at + 2 else at + 3
+        verb = at + 4
+        plain = which and numeral(words[number]) and words[verb] in lexicon.COPULAS and not link_at(tokens, verb + 1)
+        if not plain or words[verb + 2 : verb + 4] != [",", "and"] or nouns.match([words[at - 1]]) is None:
+            continue
+        end = next((n for n in range(verb + 4, len(words)) if words[n] == "."), len(words))
+        stop = replace(tokens[verb + 2], text=".", mark=True)
+        the = replace(tokens[which], text="the")
+        apart = [tokens[number], tokens[which], the, tokens[at - 1], *tokens[verb : verb + 2]]
+        said = [*(replace(each, start=tokens[at + 1].start, end=tokens[verb + 1].end) for each in apart), stop]
+        return [*tokens[:at], *tokens[verb + 3 : end], stop, *said, *tokens[end + 1 :]]
+    return list(tokens)
+
+
 def _of_them(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "apples, ten of them, in a box" and "apples in a box, ten of them" as "ten apples in a box"."""
     words = [token.text for token in tokens]
