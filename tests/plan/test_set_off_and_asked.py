@@ -40,3 +40,17 @@ def test_what_is_asked_of_the_robot_makes_no_can(prompt: str, objects: set[str],
     plan = PLANNER.plan(prompt)
     assert ({obj.name for obj in plan.objects}, plan.task) == (objects, task)
     assert task is not None or "Can on" in prompt or any("no task does that" in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "hung"),
+    [
+        ("A bucket under a coat hanging on a hook.", "coat hangs_from hook"),
+        ("A box under a lamp hanging from a beam.", "lamp hangs_from beam"),
+        ("Two boots lie under a towel hanging on a rail.", "towel hangs_from rail"),
+    ],
+)
+def test_what_is_under_something_that_hangs_does_not_hang(prompt: str, hung: str):
+    plan = PLANNER.plan(prompt)
+    assert [str(relation) for relation in plan.relations if relation.kind == "hangs_from"] == [hung]
+    assert any("under" in note for note in plan.notes) or plan.arrangements

@@ -116,6 +116,14 @@ class Judging:
                 return parent
         return head
 
+    def _stands(self, node: Node) -> bool:
+        """Whether what `node` tells of is said to be on or in something, and does not hang."""
+        head = node.heads[0]
+        hung = any(
+            fact[0] == "rel" and head in fact[2] and self._link(fact[1]).kind == "hangs_from" for fact in node.facts
+        )
+        return not hung and self._carrier(head, node.facts) != head
+
     def _arcs(self, link: Link, children: tuple[int, ...], parents: tuple[int, ...]) -> float:
         costs = [self._likely.relation(link, self._noun(c), self._noun(p)) for c in children for p in parents]
         if link.kind == "in" and link.manner == "place" and len(parents) == 1 < len(children):

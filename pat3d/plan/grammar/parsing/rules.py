@@ -280,8 +280,8 @@ class Grammar(Listing):
             extra += 0.5 * (bool(twice) and {"finite"} <= named.flags & modifier.flags)
         if link.kind in LATERAL_KINDS:
             extra += self._has_sides(named, modifier)
-        if link.manner == "under" and modifier.heads[0] != self._carrier(modifier.heads[0], modifier.facts):
-            # "A book under a lamp on a table": the book is on the table.
+        if link.manner == "under" and self._stands(modifier):
+            # "A book under a lamp on a table": the book is on the table; but "under a coat hanging on a hook".
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
             cost += 1.0
