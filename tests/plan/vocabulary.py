@@ -76,3 +76,17 @@ def chain(*made: str) -> str:
     task = chain_of(made)
     assert task is not None
     return task
+
+
+def told(plan: ScenePlan) -> tuple[str, str, str | None, list[str]]:
+    """The objects, the relations with what is arranged but in rows, the task, or several, and the notes."""
+    arranged = [
+        f"{', '.join(one.objects)} {one.kind} {', '.join(one.of)}"
+        for one in plan.arrangements
+        if one.arranged and one.kind != "row"
+    ]
+    notes = [note for note in plan.notes if not note.startswith("worded like nothing") and " assumed." not in note]
+    task = ", ".join(steps(plan)) or None
+    objects = ", ".join(obj.name for obj in plan.objects)
+    notes = [note for note in notes if not note.startswith(SEVERAL)]
+    return objects, ", ".join([*map(str, plan.relations), *arranged]), task, notes
