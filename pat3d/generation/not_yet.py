@@ -69,10 +69,10 @@ def with_task_to_do(
 
 
 def beside_steps(task: str | None) -> tuple[Step, ...]:
-    """The steps of `task` that put something beside something."""
+    """The steps of `task` that put something beside what no earlier step moves."""
     told = steps_of(task) if task is not None else []
-    return tuple((moved, relation, landmark) for kind, moved, relation, landmark in
-                 (step for step in told if step[0] == "beside" and len(step) == 4))  # fmt: skip
+    found = ((at, step) for at, step in enumerate(told) if step[0] == "beside" and len(step) == 4)
+    return tuple((step[1], step[2], step[3]) for at, step in found if step[3] not in [one[1] for one in told[:at]])
 
 
 def _apart(steps: Sequence[Step], relations: tuple[Relation, ...]) -> tuple[Arrangement, ...]:

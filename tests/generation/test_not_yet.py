@@ -27,7 +27,13 @@ def beside(x: float, y: float = 0.0):
 def test_steps_beside_something_are_found_in_chains_and_alone():
     assert beside_steps(TASK) == (("red", "left_of", "blue"),)
     assert beside_steps(f"chain:place:a:b:then:{TASK}") == (("red", "left_of", "blue"),)
-    assert beside_steps("place:a:b") == beside_steps(None) == ()
+    assert beside_steps("place:a:b") == beside_steps("sort") == beside_steps(None) == ()
+
+
+def test_where_a_landmark_is_before_it_is_moved_does_not_matter():
+    assert beside_steps("chain:place:blue:tray:then:beside:red:left_of:blue") == ()
+    later = "chain:beside:red:left_of:blue:then:place:blue:tray"
+    assert beside_steps(later) == (("red", "left_of", "blue"),)
 
 
 @pytest.mark.parametrize(("x", "done"), [(-0.15, True), (0.15, False)])

@@ -95,8 +95,8 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            lid = world.is_a(children[0], lexicon.ON_RIMS) or (
-                link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",)))  # fmt: skip
+            off = link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",))
+            lid = off or world.is_a(children[0], lexicon.ON_RIMS)
             shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
             if not lid and (shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
@@ -298,11 +298,10 @@ class Relating:
         world.forget_guess(child, parent)
         table = world.is_a(child, ("table",)) and not world.on_floor(parent)
         rug = world.is_a(child, ("rug", "mat", "carpet", "blanket")) or not world.on_floor(parent)
-        # "A towel hangs below the jar" is none that the jar stands on.
-        thin = world.is_a(child, lexicon.THIN) and not table and rug and not world.hanging
+        thin = world.is_a(child, lexicon.THIN) and not table and rug
         if len(children) == len(parents) == 1 and may_cover(world, parent, child):
             world.arrange("under", children, parents, said.format("under"))
-        elif thin or (bears(world, child, parent) and not (world.on_floor(parent) or world.hanging)):
+        elif not world.hanging and (thin or (bears(world, child, parent) and not world.on_floor(parent))):
             slip_under(world, children, parents)
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
