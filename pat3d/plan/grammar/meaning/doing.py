@@ -138,6 +138,9 @@ class Doing(Placing):
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""
         link = self._chunks[at].relation
+        if all(map(self._said.is_open, (*child_heads, *parent_heads))):
+            # "Bring the cup to the plate and set it on it": the first is what is moved.
+            self._said.refs_of(child_heads, child=True)
         before, parents = self._world.subject, self._said.refs_of(parent_heads, link, child_heads)
         children = self._said.refs_of(child_heads, link, parent_heads, child=True)
         children = children or self._everything(child_heads, parents)

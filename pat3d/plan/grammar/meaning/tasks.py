@@ -65,13 +65,9 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     """
     steps = world.steps
     notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
-    # To pick what something is done with afterwards is the beginning of that.
-    begun = [{item for later in steps[at + 1 :] for item in later.items} for at in range(len(steps))]
-    wanted = [
-        step
-        for step, later in zip(steps, begun, strict=True)
-        if step.manner != "other" and step.items and not (step.manner == "pick" and set(step.items) & later)
-    ]
+    begun = [_begins(step, steps[at + 1 :]) for at, step in enumerate(steps)]
+    wanted = [step for step, begins in zip(steps, begun, strict=True)
+              if step.manner != "other" and step.items and not begins]  # fmt: skip
     specs: list[str] = []
     for step in wanted:
         made = _specs(step, world, names)
@@ -93,6 +89,17 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         listed = ", ".join(specs)
         notes.append(f"{SEVERAL} {listed}.")
     return chain, notes
+
+
+def _begins(step: Step, later: Sequence[Step]) -> bool:
+    """Whether `step` begins one of those `later`: to pick what something is done with, or to bring it there.
+
+    "Bring the can to the lamp: put it behind it."
+    """
+    if step.manner == "pick":
+        return any(set(step.items) & set(other.items) for other in later)
+    brought = step.link is not None and step.link.manner == "goal"
+    return brought and any((step.items, step.goal) == (other.items, other.goal) for other in later)
 
 
 def _is_put(picked: Step, steps: Sequence[Step]) -> bool:

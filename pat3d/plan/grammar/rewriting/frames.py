@@ -113,13 +113,3 @@ def without_duties(tokens: Sequence[Token]) -> list[Token]:
             made.append(tokens[at])
             at += 1
     return made
-
-
-def on_its_lid(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a box with a doll sitting on its lid" as "a box with a doll sitting on it"."""
-    words = [token.text for token in tokens]
-    for at in range(3, len(words) - 2):
-        owned = words[at] == "on" and words[at + 1] == "its" and words[at + 2] in lexicon.DETACHED
-        if owned and "with" in words[:at]:
-            return [*tokens[: at + 1], replace(tokens[at + 1], text="it", end=tokens[at + 2].end), *tokens[at + 3 :]]
-    return list(tokens)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.rewriting.frames import begun, on_its_lid, owned, without_duties
+from pat3d.plan.grammar.rewriting.frames import begun, owned, without_duties
+from pat3d.plan.grammar.rewriting.lids import on_its_lid
 from pat3d.plan.grammar.rewriting.rooms import in_rooms, where_it_is
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at

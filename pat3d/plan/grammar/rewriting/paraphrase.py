@@ -29,6 +29,7 @@ from pat3d.plan.grammar.rewriting.gapping import ungapped
 from pat3d.plan.grammar.rewriting.in_colours import in_colours
 from pat3d.plan.grammar.rewriting.joined_ranks import with_own_nouns
 from pat3d.plan.grammar.rewriting.levels import at_levels
+from pat3d.plan.grammar.rewriting.lids import lid_of, lid_on
 from pat3d.plan.grammar.rewriting.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
@@ -93,7 +94,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _beside_the_first(tokens, nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
-    tokens = _counted_after(_owned(_lid_on(tokens), nouns), nouns)
+    tokens = _counted_after(lid_of(lid_on(tokens), nouns), nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))
     return of_what(_relatives(by_which(borne, nouns), nouns))
 
@@ -246,35 +247,6 @@ def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             side = tokens[at + 1 : at + 2] if beside else tokens[at + 1 : after]
             return [*tokens[:start], to, the, *side, of, *owner, *tokens[after:]]
     return list(tokens)
-
-
-def _lid_on(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a pot with its lid on" as "a pot with its lid on it"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        made.append(token)
-        closing = token.text == "on" and at > 2 and tokens[at - 1].text in lexicon.ON_RIMS
-        if (
-            closing
-            and (tokens[at + 1].mark or tokens[at + 1].text == "and")
-            and "with" in (tokens[at - 2].text, tokens[at - 3].text)
-        ):
-            made.append(replace(token, text="it"))
-    return made
-
-
-def _owned(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "the pot's lid" as "the lid", where the pot is spoken of elsewhere too."""
-    words = [token.text for token in tokens]
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        owner = at and token.text == "'s" and nouns.match([words[at - 1]])
-        lid = owner and nouns.match([words[at + 1]]) and words.count(words[at - 1]) > 1
-        if lid and words[at + 1] in lexicon.ON_RIMS:
-            made.pop()
-        else:
-            made.append(token)
-    return made
 
 
 def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
