@@ -152,7 +152,7 @@ class Plausible:
     def held(self, child: str, kind: str, parent: str) -> float:
         """Of `child` being carried by `parent` in the manner `kind`."""
         if kind == "hangs_from" or self.is_a(parent, lexicon.HOOKED):
-            return 0.2
+            return 2.0 if self.floor(child) else 0.2
         return self.within(child, parent) if kind == "in" else self.on(child, parent)
 
     def carried(self, child: str, kind: str, parent: str) -> float:
@@ -174,8 +174,8 @@ class Plausible:
             return min(self.on(child, parent), self.beside(child, parent))
         if link.manner in ("source", "goal"):
             return min(self.on(child, parent), self.within(child, parent))
-        if link.kind in ("on", "in") and self.is_a(parent, lexicon.HOOKED):
-            return 0.2
+        if link.kind == "hangs_from" or (link.kind in ("on", "in") and self.is_a(parent, lexicon.HOOKED)):
+            return self.held(child, "hangs_from", parent)
         if link.kind == "in":
             return self.within(child, parent)
         slender = self.is_a(child, lexicon.SLENDER) and not self.is_a(child, lexicon.LONG)
@@ -186,8 +186,6 @@ class Plausible:
             return min(self.on(child, parent), 0.3)
         if link.kind == "on":
             return self.on(child, parent)
-        if link.kind == "hangs_from":
-            return 2.0 if self.floor(child) else 0.2
         return self.beside(child, parent)
 
     def having(self, link: Link, parent: str, child: str) -> float:

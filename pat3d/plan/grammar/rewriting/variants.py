@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
+from pat3d.plan.grammar.rewriting.named_like_colours import with_their_amount
 from pat3d.plan.grammar.rewriting.of_material import made_of
 from pat3d.plan.grammar.rewriting.respectively import respectively
 from pat3d.plan.grammar.words import lexicon
@@ -122,7 +123,7 @@ def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
     usual = _plain(_alike(_alternating(_hued(_begun(tokens))), nouns))
     tokens = respectively(_the_one(_number_of(_compared(_rainbow(usual, nouns), nouns))))
-    return made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
+    return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
 
 def _number_of(tokens: Sequence[Token]) -> Sequence[Token]:
