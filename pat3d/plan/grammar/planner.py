@@ -27,6 +27,7 @@ from pat3d.plan.grammar.rewriting.acting import without_actor
 from pat3d.plan.grammar.rewriting.addressed import unaddressed
 from pat3d.plan.grammar.rewriting.apposed import apposed
 from pat3d.plan.grammar.rewriting.arcs import arcs
+from pat3d.plan.grammar.rewriting.compass import compass
 from pat3d.plan.grammar.rewriting.denials import without_denials
 from pat3d.plan.grammar.rewriting.distances import with_distances
 from pat3d.plan.grammar.rewriting.distractors import without_distractors
@@ -114,6 +115,7 @@ class GrammarPlanner(Sparing):
         check_language(text := normalise(prompt))
         tokens, distracting = without_distractors(text, tokenise(text))
         tokens, halved = arcs(text, tokens)
+        tokens, charted = compass(text, tokens)
         tokens = in_plain_words(text, tokens, self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         said, aside = unaddressed(text, sentences(tokens, self._nouns), self._nouns)
@@ -124,7 +126,7 @@ class GrammarPlanner(Sparing):
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
-        world.notes += [*(f'not modelled: "{each}"' for each in away), *which, *halved, *distracting]
+        world.notes += [*(f'not modelled: "{each}"' for each in away), *which, *halved, *charted, *distracting]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

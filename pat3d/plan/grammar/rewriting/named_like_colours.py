@@ -22,7 +22,8 @@ def with_their_amount(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     words = [token.text for token in tokens]
     link = link_at(tokens, 0)
     verb = next((at for at in range(link + 1, len(words)) if words[at] in lexicon.STANDING), 0) if link else 0
-    if not verb or any(token.mark for token in tokens[:verb]) or not nouns.match(words[verb - 1 : verb]):
+    one = not any(token.mark or token.text in lexicon.DETERMINERS for token in tokens[link + 1 : verb])
+    if not verb or not one or not nouns.match(words[verb - 1 : verb]):
         return list(tokens)
     made = list(tokens[: verb + 1])
     for at in range(verb + 1, len(tokens)):

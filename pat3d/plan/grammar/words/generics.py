@@ -56,9 +56,17 @@ GENERICS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("clothes", "clothing", "garment", "laundry"), ("t-shirt", "jeans", "sock")),
     "berry": ("strawberry", "blueberry", "raspberry"),
     **dict.fromkeys(("citrus", "citrus fruit"), ("orange", "lemon", "lime")),
-    **dict.fromkeys(("electronic device", "electronic", "gadget"), ("phone", "tablet", "camera")),
+    **dict.fromkeys(("electronic device", "electronic", "gadget", "device"), ("phone", "tablet", "camera")),
+    **dict.fromkeys(("vehicle", "toy vehicle"), ("toy car", "toy truck", "toy train")),
+    **dict.fromkeys(("dairy product", "dairy"), ("milk carton", "cheese", "yogurt")),
+    **dict.fromkeys(("storage unit", "storage furniture"), ("cabinet", "bookshelf", "dresser")),
+    **dict.fromkeys(("beverage", "soft drink"), ("soda can", "juice bottle", "bottle")),
+    **dict.fromkeys(("musical instrument", "instrument"), ("guitar", "drum")),
+    "seafood": ("fish",), "produce": ("apple", "carrot", "tomato"), "kitchenware": ("pot", "bowl", "spatula"),
+    **dict.fromkeys(("jewelry", "jewellery"), ("ring", "watch")),
     **MEALS,
 }  # fmt: skip
 """Nouns for a kind of thing, and the things that stand for it in turn."""
 MASS_GENERICS = frozenset({"electronics", "fruit", "cutlery", "silverware", "stationery", "furniture", "crockery",
-    "dishware", "tableware", "cookware", "glassware", "clothes", "clothing", "laundry", "citrus", *MEALS})  # fmt: skip
+    "dishware", "tableware", "cookware", "glassware", "kitchenware", "dairy",
+    "produce", "seafood", "jewelry", "jewellery", "clothes", "clothing", "laundry", "citrus", *MEALS})  # fmt: skip
