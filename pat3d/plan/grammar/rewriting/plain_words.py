@@ -11,6 +11,7 @@ from pat3d.plan.grammar.rewriting.carried_clauses import of_the_carried
 from pat3d.plan.grammar.rewriting.compounds import compounds
 from pat3d.plan.grammar.rewriting.drinks import of_drinks
 from pat3d.plan.grammar.rewriting.meals import served
+from pat3d.plan.grammar.rewriting.members_set_off import members_set_off
 from pat3d.plan.grammar.rewriting.neighbours import between_neighbours
 from pat3d.plan.grammar.rewriting.note_items import each_at_its_place
 from pat3d.plan.grammar.rewriting.numbered import ordinals
@@ -40,10 +41,10 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     things is meant is told last.
     """
     rewritings: tuple[Rewriting, ...] = (
-        partial(ordinals, text), compounds, partial(each_at_its_place, text), partial(out_of_brackets, text),
-        asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours, of_the_counted, in_full, served,
-        worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried, by_rank, at_row_ends, of_unlike_rows,
-        levels_of,
+        partial(ordinals, text), compounds, members_set_off, partial(each_at_its_place, text),
+        partial(out_of_brackets, text), asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours,
+        of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried,
+        by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:
