@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.plausible import USUAL
@@ -76,7 +76,8 @@ class Interpreter(Holding):
         for fact in facts:
             if fact[0] == "form" and self._chunks[fact[1]].text in _COUNTING:
                 self._form(fact[1], fact[2])
-        for fact in sorted(facts, key=self._of_some):
+        held = {head for fact in facts if fact[0] == "have" for head in fact[3]}
+        for fact in sorted(facts, key=lambda fact: self._of_some(fact) or self._beside_both(fact, held)):
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None and not self._means(fact):
                 self._effect(handler, fact[1], fact[2], fact[3])
@@ -142,6 +143,10 @@ class Interpreter(Holding):
         told = fact[0] == "rel" and all(self._chunks[head].named.kind == "pieces" for head in fact[2])
         items = self._said.ref_all(fact[2]) if told else []
         return bool(items) and apart.are_some(items)
+
+    def _beside_both(self, fact: tuple, held: Collection[int]) -> bool:
+        """Whether `fact` has what is `held` on both sides of something: "a nightstand with a lamp on each side of it"."""
+        return fact[0] == "rel" and self._chunks[fact[1]].relation.manner == "sides" and held >= {*fact[2]}
 
     def _told_of(self, heads: Sequence[int]) -> list[Item]:
         """All that the sentence tells of; where that is one thing, also what the sentences before tell of."""

@@ -313,6 +313,11 @@ class Relating:
     def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
         """`children` stand on both sides of `parents`, or at both ends of its top."""
         world = self.world
+        edge = world.supports.get(children[0]) if len(children) == 1 else None
+        own = edge is not None and edge.weak and {*parents}.isdisjoint([edge.parent, *world.ancestors(edge.parent)])
+        if edge is not None and own and world.on_floor(edge.parent) and world.on_floor(parents[0]):
+            # "A bed, a nightstand with a lamp on each side of the bed": two nightstands.
+            children = [edge.parent]
         group = children[0].group
         seat = world.is_a(parents[0], lexicon.SEATS)
         level = world.is_a(parents[0], lexicon.LEVEL, ("piano",)) and not world.on_floor(children[0])

@@ -99,7 +99,10 @@ class SharedOut(Contrast):
         if _MORE & {*words} or phrase.plural != (phrase.count > 1):
             return []
         groups = [group for group in self._world.groups[: self._world.settled] if not group.replaced]
-        groups = [group for group in groups if group.noun == phrase.noun and group.said == phrase.said]
+        name, bare = phrase.said or phrase.head, phrase.modifiers == NO_MODIFIERS
+        # "Between two wine bottles. One bottle is open."
+        groups = [group for group in groups
+                  if group.said == name or (bare and len(group.items) > 1 and group.said.split()[-1] == name)]  # fmt: skip
         if not groups or phrase.modifiers not in (NO_MODIFIERS, groups[-1].modifiers):
             return []
         if len(groups[-1].items) > phrase.count:
