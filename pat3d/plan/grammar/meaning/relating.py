@@ -301,7 +301,7 @@ class Relating:
         thin = world.is_a(child, lexicon.THIN) and not table and rug
         if len(children) == len(parents) == 1 and may_cover(world, parent, child):
             world.arrange("under", children, parents, said.format("under"))
-        elif not world.hanging and (thin or (bears(world, child, parent) and not world.on_floor(parent))):
+        elif not (world.hanging or world.is_a(parent, lexicon.BOUGHS)) and (thin or (bears(world, child, parent) and not world.on_floor(parent))):
             slip_under(world, children, parents)
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
