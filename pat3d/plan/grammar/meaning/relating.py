@@ -34,6 +34,16 @@ _ENDS = 2
 """Of a surface: "a candle at each end"."""
 _CORNERS = 4
 """Of a surface: "a candle in each corner"."""
+_CROWDED = 1.5
+"""What it costs where more is on a thing than it has room for."""
+_FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
+"""What carries one thing."""
+
+
+def _crowded(world: World, children: Sequence[Item], parent: Item) -> bool:
+    """Whether `parent` is too small for all of `children`: of "a lamp, a cup and a phone on a tripod" the phone is."""
+    broad = {item.group for item in children if not world.is_a(item, lexicon.SLENDER)}
+    return len(broad) > 1 and world.is_a(parent, _FOR_ONE)
 
 
 class Relating:
@@ -260,6 +270,7 @@ class Relating:
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         self._settle(children, parents)
+        self.cost += _CROWDED * (kind == "on" and _crowded(world, children, parent))
         if link.said == "over":
             world.over += _paired(children, parents)
         lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
