@@ -114,7 +114,7 @@ class Contrast(Pronouns):
         child = any(at in one for one, _ in self.related)
         parent = any(at in other for _, other in self.related)
         if not likes or not (self.asked or (parent and not child)):
-            return self._again(at, phrase, named) if parent and not self.asked else None
+            return None
         among = {head for one, other in self.related if at in other for head in one}
         if any(self._chunks[head].named.each for head in among):
             # "Each ball is in a box": every one in its own.
@@ -129,22 +129,6 @@ class Contrast(Pronouns):
         if some:
             self._world.telling = likes[-1].items[count:]
         return likes[-1].items[:count]
-
-    def _again(self, at: int, phrase: Phrase, named: Sequence[Group]) -> list[Item] | None:
-        """The one thing named before that "on a sofa" at chunk `at` names again; None where it is one more.
-
-        "A room with a desk and a rug. On a desk stands a lamp."; where that bears something already there are two.
-        """
-        like = [group for group in named if group.noun == phrase.noun and not group.replaced]
-        link, plain = self._chunks[at - 1].link, all(group.modifiers == NO_MODIFIERS for group in like)
-        if len(like) != 1 or len(like[0].items) != 1 or not plain or link is None or link.kind not in SUPPORT_KINDS:
-            return None
-        (own,), bears = like[0].items, {edge.parent for edge in self._world.supports.values() if not edge.weak}
-        if not self._world.on_floor(own) or like[0].said != phrase.said:
-            return None
-        again = "one more" if own in bears else "the one named before"
-        self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as {again}.')
-        return None if own in bears else [own]
 
     def _free(self, items: list[Item], count: int) -> list[Item]:
         """Those of `items` of which nothing was said or asked yet, where they are `count` at least; all otherwise."""

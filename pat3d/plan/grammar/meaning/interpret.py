@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.plausible import USUAL
@@ -62,7 +62,10 @@ class Interpreter(Holding):
         self._chunks = self._said.with_parts(facts)
         self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
         # "A cup and a can, the can in a box": the can alone is.
-        listed = [fact[3] if fact[0] == "have" else fact[2] for fact in facts if fact[0] in ("have", "rel", "quality")]
+        listed = [fact[3] if fact[0] == "have" else fact[2] for fact in facts if fact[0] in ("have", "rel")]
+        # "A tray with two cups, the cups are red": the tray is not.
+        nouns = [at for at, chunk in enumerate(self._chunks) if chunk.phrase is not None]
+        listed += [[n for n in nouns if n <= max(fact[2])] for fact in facts if fact[0] == "quality" and fact[2][1:]]
         self._said.cost += _TWICE * any(map(self._listed_twice, listed))
         qualities = [fact for fact in facts if fact[0] == "quality"]
         for at, chunk in enumerate(self._chunks):
@@ -76,8 +79,7 @@ class Interpreter(Holding):
         for fact in facts:
             if fact[0] == "form" and self._chunks[fact[1]].text in _COUNTING:
                 self._form(fact[1], fact[2])
-        held = {head for fact in facts if fact[0] == "have" for head in fact[3]}
-        for fact in sorted(facts, key=lambda fact: self._of_some(fact) or self._beside_both(fact, held)):
+        for fact in sorted(facts, key=lambda fact: self._of_some(fact) or self._beside_both(fact, facts)):
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None and not self._means(fact):
                 self._effect(handler, fact[1], fact[2], fact[3])
@@ -143,10 +145,6 @@ class Interpreter(Holding):
         told = fact[0] == "rel" and all(self._chunks[head].named.kind == "pieces" for head in fact[2])
         items = self._said.ref_all(fact[2]) if told else []
         return bool(items) and apart.are_some(items)
-
-    def _beside_both(self, fact: tuple, held: Collection[int]) -> bool:
-        """Whether `fact` has what is `held` on both sides of something: "a nightstand with a lamp on each side of it"."""
-        return fact[0] == "rel" and self._chunks[fact[1]].relation.manner == "sides" and held >= {*fact[2]}
 
     def _told_of(self, heads: Sequence[int]) -> list[Item]:
         """All that the sentence tells of; where that is one thing, also what the sentences before tell of."""

@@ -8,7 +8,7 @@ from itertools import product
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
-from pat3d.plan.grammar.meaning.attached import bears, slip_under
+from pat3d.plan.grammar.meaning.attached import bears, crowding, slip_under, with_its_carrier
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.objects import forget_count, multiply, recount
@@ -24,8 +24,6 @@ _HALVES: dict[str, LateralKind] = {
 """What stands in for a half of what has no surface."""
 _HARDLY_CARRIED = 0.9
 """Cost of being on what only hands would hold it on, see Plausible.on."""
-
-
 _NEIGHBOURS = 3
 """Things that one can stand next to."""
 _PAIRS = 30
@@ -34,16 +32,6 @@ _ENDS = 2
 """Of a surface: "a candle at each end"."""
 _CORNERS = 4
 """Of a surface: "a candle in each corner"."""
-_CROWDED = 1.5
-"""What it costs where more is on a thing than it has room for."""
-_FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
-"""What carries one thing."""
-
-
-def _crowded(world: World, children: Sequence[Item], parent: Item) -> bool:
-    """Whether `parent` is too small for all of `children`: of "a lamp, a cup and a phone on a tripod" the phone is."""
-    broad = {item.group for item in children if not world.is_a(item, lexicon.SLENDER)}
-    return len(broad) > 1 and world.is_a(parent, _FOR_ONE)
 
 
 class Relating:
@@ -270,7 +258,7 @@ class Relating:
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         self._settle(children, parents)
-        self.cost += _CROWDED * (kind == "on" and _crowded(world, children, parent))
+        self.cost += crowding(world, children, parent) if kind == "on" else 0.0
         if link.said == "over":
             world.over += _paired(children, parents)
         lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
@@ -312,7 +300,7 @@ class Relating:
         thin = world.is_a(child, lexicon.THIN) and not table and rug
         if len(children) == len(parents) == 1 and may_cover(world, parent, child):
             world.arrange("under", children, parents, said.format("under"))
-        elif not (world.hanging or world.is_a(parent, lexicon.BOUGHS)) and (thin or (bears(world, child, parent) and not world.on_floor(parent))):
+        elif not world.hanging and (thin or (bears(world, child, parent) and not world.on_floor(parent))):
             slip_under(world, children, parents)
             world.place(parents, "on", children)
             world.arrange("under", children, parents)
@@ -324,11 +312,7 @@ class Relating:
     def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
         """`children` stand on both sides of `parents`, or at both ends of its top."""
         world = self.world
-        edge = world.supports.get(children[0]) if len(children) == 1 else None
-        own = edge is not None and edge.weak and {*parents}.isdisjoint([edge.parent, *world.ancestors(edge.parent)])
-        if edge is not None and own and world.on_floor(edge.parent) and world.on_floor(parents[0]):
-            # "A bed, a nightstand with a lamp on each side of the bed": two nightstands.
-            children = [edge.parent]
+        children = with_its_carrier(world, children, parents)
         group = children[0].group
         seat = world.is_a(parents[0], lexicon.SEATS)
         level = world.is_a(parents[0], lexicon.LEVEL, ("piano",)) and not world.on_floor(children[0])

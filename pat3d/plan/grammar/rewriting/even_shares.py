@@ -113,8 +113,8 @@ def without_shares(tokens: Sequence[Token]) -> list[Token]:
     """
     words = [token.text for token in tokens]
     if sides := _SIDES.search(said := " ".join(words)):
-        total, (first, size) = 2 * sum(map(numeral, sides.groups())), (said[: sides.start()].count(" "), sides[0].count(" "))
-        if total in map(number_of, words[:first]):
+        first, size = said[: sides.start()].count(" "), sides[0].count(" ")
+        if 2 * sum(map(numeral, sides.groups())) in map(number_of, words[:first]):
             return [*tokens[: first + 1], *tokens[first + 1 + size :]]
     for each in (at for at in range(6, len(words) - 1) if words[at] == "each"):
         tail = next((n for n in range(each - 1, each - 6, -1) if tokens[n].mark), each)

@@ -185,7 +185,9 @@ def _is_purpose(word: str, head: str) -> bool:
 
 def is_colour_word(word: str) -> bool:
     """Whether `word` is a colour, alone or in a hyphenated word."""
-    return bool(find_colour(word) and word not in _NO_ADJECTIVE) or ("-" in word and any(find_colour(part) for part in word.split("-")))
+    return bool(find_colour(word) and word not in _NO_ADJECTIVE) or (
+        "-" in word and any(find_colour(part) for part in word.split("-"))
+    )
 
 
 def is_part_colour(word: str) -> bool:
