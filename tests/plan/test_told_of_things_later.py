@@ -172,3 +172,12 @@ def test_what_stands_behind_those_is_a_thing_of_its_own(these: str):
     plan = PLANNER.plan(f"Two big crates stand side by side, and on {these} the small one.")
     assert "small crate on big crate 1" in _relations(plan)
     assert sum(obj.noun == "crate" for obj in plan.objects) == 3
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["A radio stands on a desk. Its cord lies beside it.", "a fan on a shelf, its cable on the floor"],
+)
+def test_a_part_made_as_a_thing_is_noted(prompt: str):
+    plan = PLANNER.plan(prompt)
+    assert any(note.startswith('"its c') and "thing of its own" in note.lower() for note in map(str.lower, plan.notes))
