@@ -50,6 +50,8 @@ _NAMESAKES = {
 """Names of things that the catalogue has by another name only, and in what company they are meant; empty in any."""
 _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}
 """What is made to be worn, and of what it is a part as well."""
+_FAST = frozenset({"cord", "cable", "handle", "strap", "hose", "plug", "wire", "string", "chain"})
+"""Parts that come off nothing, though there are things of that name too."""
 _BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick"})
 """Names that alone mean one of several things, of which the catalogue has another name."""
 _ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
@@ -197,6 +199,14 @@ def _parts_as_things(it: Compared) -> Iterator[tuple[int, str]]:
         own = [obj for obj in it.which(part) if obj.phrase.lower() == " ".join(words[part.first : part.end])]
         if own and own[0].noun not in ("lid", "saucer") and any(behind.at == part.end for behind in it.said.claims):
             yield part.start, f'"its {part.text}" is made as a thing of its own'
+    for obj in it.plan.objects:
+        said = obj.phrase.lower().split()
+        if (
+            said[0] in ("its", "their")
+            and {said[-1], *singulars(said[-1])} & _FAST
+            and obj.phrase.lower() not in it.told
+        ):
+            yield 0, f'"{obj.phrase}" is made as a thing of its own'
 
 
 def _unpacked(it: Compared) -> Iterator[tuple[int, str]]:

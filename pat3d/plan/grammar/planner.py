@@ -317,9 +317,9 @@ class GrammarPlanner(Sparing):
     def _told(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, and the next likely reading where it is nearly as likely."""
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
-        world.hear(sentence)
         known = [group.phrase for group in world.groups if not group.replaced]
-        chunks = completed(trimmed(sentence.chunks), self._nouns, known)
+        chunks = completed(trimmed(sentence.chunks), self._nouns, known, sentence.doubts)
+        world.hear(sentence)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')
         if not any(chunk.kind == "noun" for chunk in chunks):

@@ -120,7 +120,7 @@ class Sparing(ABC):
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         lighter = copied(world)
         known = [group.phrase for group in world.groups if not group.replaced]
-        chunks = completed(trimmed(sentence.chunks), self._nouns, known)
+        chunks = completed(trimmed(sentence.chunks), self._nouns, known, sentence.doubts)
         pieces = in_pieces(chunks, self._likely, lambda phrase: self._maker.no_thing(phrase.head))
         if pieces is None or "or" in sentence.unread:
             return None

@@ -251,7 +251,7 @@ class PhraseReader:
             rest = [word for index, word in enumerate(words) if index not in used]
             hidden = [word for word in match.said.split()[:-1] if word not in match.noun.split()]
             plural = match.plural and match.said not in lexicon.PLURAL_ONLY
-            own = read_modifiers(rest, hidden)
+            own = read_modifiers(rest, hidden, match.said.split()[-1])
             return replace(base, kind="object", noun=match.noun, said=match.said, plural=plural, modifiers=own)
         if len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1]):
             # "three orange wedges"

@@ -14,8 +14,23 @@ from pat3d.plan.grammar.words.sizes import too_large
 
 _BORNE = 1.2
 """Cost of being on something, see Plausible.on, at which what is above that may rest on it."""
-_REACHING = ("lamp", "floor lamp", "faucet", "umbrella", "monitor", "tv", "clock", "mirror", "picture frame", "shelf")
+_REACHING = (
+    "tree",
+    "rod",
+    "lamp",
+    "floor lamp",
+    "faucet",
+    "umbrella",
+    "monitor",
+    "tv",
+    "clock",
+    "mirror",
+    "picture frame",
+    "shelf",
+)
 """What is above other things without resting on them."""
+_FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
+"""What carries one thing, and what is slender besides."""
 
 
 def attached_higher(other: World, first: World) -> bool:
@@ -69,6 +84,20 @@ def bears(world: World, below: Item, above: Item) -> bool:
     solid = not world.likely.hollow(noun) and not world.on_floor(below)
     stays = solid and world.likely.on(load, noun) <= _BORNE and not world.is_a(above, _REACHING)
     return world.is_a(below, lexicon.STACKABLE) or stays
+
+
+def crowding(world: World, children: Sequence[Item], parent: Item) -> float:
+    """What it costs that `children` are on `parent`: of "a lamp, a cup and a phone on a tripod" the phone alone is."""
+    broad = {item.group for item in children if not world.is_a(item, lexicon.SLENDER)}
+    return 1.5 if len(broad) > 1 and world.is_a(parent, _FOR_ONE) else 0.0
+
+
+def with_its_carrier(world: World, children: list[Item], parents: Sequence[Item]) -> list[Item]:
+    """What is on both sides of `parents` with `children`: of "a nightstand with a lamp on each side" that itself."""
+    edge = world.supports.get(children[0]) if len(children) == 1 and world.on_floor(parents[0]) else None
+    if edge is None or not edge.weak or {edge.parent, *world.ancestors(edge.parent)} & {*parents}:
+        return children
+    return [edge.parent] if world.on_floor(edge.parent) else children
 
 
 def slip_under(world: World, children: Sequence[Item], parents: Sequence[Item]) -> None:

@@ -6,8 +6,10 @@ from dataclasses import replace
 
 from pat3d.assets.colours import COLOURS
 from pat3d.plan.grammar.meaning.entities import Group, Item
+from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.modifiers import COLOURED, Modifiers
+from pat3d.plan.grammar.words.sizes import extents
 
 _PUT_ON = frozenset({"bow", "ribbon", "scarf", "sticker", "label", "strap", "lace"})
 """Parts that are things of their own."""
@@ -58,7 +60,27 @@ def describe(group: Group, told: Modifiers, part: str = "") -> None:
         colours=tuple(dict.fromkeys((*own.colours, *colours))),
         material=own.material or (told.material if not part else None),
         adjectives=(*own.adjectives, *adjectives),
+        size_word=own.size_word or (told.size_word if not part else ""),
+        scale=own.scale if own.size_word or part else told.scale,
     )
+
+
+def compared(world: World, group: Group, told: Modifiers) -> Modifiers:
+    """`told` with a scale that makes "the saucepan is smaller" true of it beside the one other thing there.
+
+    Where that would be absurd, as of a vase that is larger than a sofa, a note says that it is not so.
+    """
+    near = [other for other in world.groups if other is not group and not other.replaced
+            and world.support(other.items[0]) is world.support(group.items[0])]  # fmt: skip
+    sizes = [max(extents(each.noun), default=0.0) * each.modifiers.scale for each in (group, *near)]
+    if not told.size_word.endswith("er") or len(near) != 1 or not all(sizes):
+        return told
+    ratio = sizes[1] / sizes[0]
+    scale = min(told.scale, 0.9 * ratio) if told.scale < 1 else max(told.scale, 1.1 * ratio)
+    if not 0.4 < scale < 2.5:
+        world.note(f'not modelled: "{told.size_word}" of "{group.words}", than "{near[0].words}"')
+        return told
+    return replace(told, scale=round(scale, 2))
 
 
 def tell(item: Item, told: Modifiers) -> None:

@@ -22,20 +22,22 @@ _HARD = frozenset(
 )
 _SOFT = ("sofa", "armchair", "couch", "bed", "rug", "carpet", "plant", "potted plant", "tree", "bag", "handbag",
          "backpack", "rose", "flower", "tulip", "sunflower", "carrot", "banana")  # fmt: skip
+_CLOTH = ("towel", "napkin", "blanket", "rug", "pillow", "cushion", "hat", "scarf", "beanie", "glove", "sock", "shirt",
+          "curtain", "tablecloth", "mitten", "coat", "jacket", "apron")  # fmt: skip
 _ENDS = ("joint", "clause", "there")
 _SAID = ("rel", "have", "place", "verb")
 """Chunks by which something is said of what stands before them."""
 _LEVELS = {"bottom": 0, "middle": 1, "centre": 1, "top": 2}
 
 
-def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase] = ()) -> list[Chunk]:
+def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase], doubts: list[str]) -> list[Chunk]:
     """`chunks` with every left-out noun in its place, and "a stack of A, B and C" as "A, B and C" in a tower.
 
-    `known` are the phrases of what was named before them.
+    `known` are the phrases of what was named before them; `doubts` takes notes of what is a guess.
     """
     told = _from_below(_described(_gapped(_full(_one_more(chunks, known, nouns)))))
     told = likes_named(paralleled(told, nouns, known), nouns, known)
-    return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns)))
+    return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns, doubts)))
 
 
 def _one_more(chunks: Sequence[Chunk], known: Collection[Phrase], nouns: Nouns) -> list[Chunk]:
@@ -157,24 +159,35 @@ def _told_before(phrase: Phrase | None, before: Sequence[Chunk]) -> bool:
                                            if chunk.phrase is not None and chunk.phrase.kind == "object")  # fmt: skip
 
 
-def _alike(chunks: list[Chunk], nouns: Nouns) -> list[Chunk]:
-    """`chunks` with "a white plate and bowl" as "a white plate and a white bowl", and so of a material."""
+def _alike(chunks: list[Chunk], nouns: Nouns, doubts: list[str]) -> list[Chunk]:
+    """`chunks` with "a white plate and bowl" as "a white plate and a white bowl", and so of a material.
+
+    Of "a red candle and pen" both are red, which `doubts` names as a guess; of "a red cloth and pen" the cloth is.
+    """
     for at, (first, joint, second) in enumerate(zip(chunks, chunks[1:], chunks[2:], strict=False)):
         one, other = first.phrase, second.phrase
-        pair = one is not None and other is not None and one.kind == other.kind == "object" and joint.text == "and"
-        if pair and one.determined and one.count is None and not (other.determined or other.plural or one.plural):  # type: ignore[union-attr]
-            words = one.modifiers  # type: ignore[union-attr]
-            if other.modifiers == NO_MODIFIERS:  # type: ignore[union-attr]
-                own = replace(NO_MODIFIERS, colours=words.colours)
-                if words.material_word and words.material in _HARD and _made_alike(one, other, nouns):
-                    own = replace(own, material=words.material, material_word=words.material_word)
-                chunks[at + 2] = replace(second, phrase=replace(other, modifiers=own))  # type: ignore[type-var]
+        if one is None or other is None or not (one.kind == other.kind == "object") or joint.text != "and":
+            continue
+        told = one.determined and one.count is None and not (other.determined or other.plural or one.plural)
+        if not told or other.modifiers != NO_MODIFIERS:
+            continue
+        words, alike = one.modifiers, _made_alike(one, other, nouns)
+        cloth = [nouns.of_class(each.noun, _CLOTH) for each in (one, other)]
+        apart = cloth[0] != cloth[1] or nouns.of_class(other.noun, lexicon.FRUIT)
+        furniture = all(nouns.of_class(each.noun, lexicon.FLOOR) for each in (one, other))
+        if words.colours and not (alike or furniture or all(cloth)):
+            how = "not read" if apart else "read"
+            doubts.append(f'"{" ".join(words.colours)}" of "{one.words}" is {how} as said of "{other.words}" too.')
+        own = replace(NO_MODIFIERS, colours=() if apart else words.colours)
+        if words.material_word and words.material in _HARD and alike:
+            own = replace(own, material=words.material, material_word=words.material_word)
+        chunks[at + 2] = replace(second, phrase=replace(other, modifiers=own))
     return chunks
 
 
-def _made_alike(one: Phrase | None, other: Phrase | None, nouns: Nouns) -> bool:
+def _made_alike(one: Phrase, other: Phrase, nouns: Nouns) -> bool:
     """Whether both are furniture with nothing soft, or both things of the table: what one material is said of."""
-    named = [phrase.noun for phrase in (one, other) if phrase is not None]
+    named = [one.noun, other.noun]
     if any(nouns.of_class(noun, _SOFT) for noun in named):
         return False
     table = (lexicon.HOLLOW, lexicon.DISHES, lexicon.BOWLS, lexicon.NARROW, lexicon.SLENDER)

@@ -104,3 +104,8 @@ class Holding(Doing):
             return False
         stands = self._world.on_floor(owner) and not self._world.is_a(owner, lexicon.HOLLOW)
         return bool(places & _WALLS) or (stands and bool(places & {"floor", "ground"}))
+
+    def _beside_both(self, fact: tuple, facts: Sequence[tuple]) -> bool:
+        """Whether `fact` has what something is with on both sides: "a nightstand with a lamp on each side of it"."""
+        held = {head for other in facts if other[0] == "have" for head in other[3]}
+        return fact[0] == "rel" and self._chunks[fact[1]].relation.manner == "sides" and held >= {*fact[2]}

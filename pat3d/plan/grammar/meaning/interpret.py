@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.meaning import apart
 from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
-from pat3d.plan.grammar.meaning.described import describe, tell
+from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
@@ -63,6 +63,9 @@ class Interpreter(Holding):
         self._said.fronts = {head for fact in facts if fact[0] == "front" for head in fact[1]}
         # "A cup and a can, the can in a box": the can alone is.
         listed = [fact[3] if fact[0] == "have" else fact[2] for fact in facts if fact[0] in ("have", "rel")]
+        # "A tray with two cups, the cups are red": the tray is not.
+        nouns = [at for at, chunk in enumerate(self._chunks) if chunk.phrase is not None]
+        listed += [[n for n in nouns if n <= max(fact[2])] for fact in facts if fact[0] == "quality" and fact[2][1:]]
         self._said.cost += _TWICE * any(map(self._listed_twice, listed))
         qualities = [fact for fact in facts if fact[0] == "quality"]
         for at, chunk in enumerate(self._chunks):
@@ -76,7 +79,7 @@ class Interpreter(Holding):
         for fact in facts:
             if fact[0] == "form" and self._chunks[fact[1]].text in _COUNTING:
                 self._form(fact[1], fact[2])
-        for fact in sorted(facts, key=self._of_some):
+        for fact in sorted(facts, key=lambda fact: self._of_some(fact) or self._beside_both(fact, facts)):
             handler = {"rel": self._related, "have": self._had, "list": self._listed}.get(fact[0])
             if handler is not None and not self._means(fact):
                 self._effect(handler, fact[1], fact[2], fact[3])
@@ -208,7 +211,7 @@ class Interpreter(Holding):
             if shared and len(group.items) > 1 and all(item in items for item in group.items):
                 tell_colours(self._world, group, told)
             elif all(item in items for item in group.items):
-                describe(group, told)
+                describe(group, compared(self._world, group, told))
             else:
                 for item in items:
                     tell(item, told)

@@ -51,8 +51,8 @@ def _like(chunks: Sequence[Chunk], at: int, known: Collection[Phrase]) -> Phrase
         return next((one for one in reversed([*known]) if one.kind == "object" and _otherwise(one, by, how)), None)
     if not (headless and by and at and chunks[at - 1 - _led(chunks, at)].kind in ("joint", "clause")):
         return None
-    named = {piece.named.noun for piece in chunks[:at] if piece.phrase is not None and piece.phrase.kind == "object"}
-    if by == "other" and any(sum(1 + one.several for one in known if one.noun == noun) > 1 for noun in named):
+    named = {piece.named.said for piece in chunks[:at] if piece.phrase is not None and piece.phrase.kind == "object"}
+    if by == "other" and any(sum(1 + one.several for one in known if one.said.endswith(name)) > 1 for name in named):
         # "Two pens are on the desk. One pen is in the mug, the other next to it.": of the two.
         return None
     before = [(n, one.phrase) for n, one in enumerate(chunks[:at]) if one.phrase and one.phrase.kind == "object"]

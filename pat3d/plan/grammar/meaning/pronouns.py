@@ -228,9 +228,15 @@ class Pronouns:
                     # "A desk has a bowl on it. It contains two plums."
                     likely = likely * (link.kind == "in") + _SHUT * (not world.likely.opens(world.noun(items[0])))
                 thin = world.is_a(other[0], lexicon.THIN)
-                if link.manner == "under" and not (child or thin) and world.is_a(items[0], lexicon.OVERHANGING):
+                borne = any(edge.parent is items[0] and edge.kind != "hangs_from" for edge in world.supports.values())
+                bough = borne and world.is_a(items[0], lexicon.BOUGHS)
+                if (
+                    link.manner == "under"
+                    and not (child or thin)
+                    and (bough or world.is_a(items[0], lexicon.OVERHANGING))
+                ):
                     # "A bear sits on a chair, and a ball is under it": under the chair.
-                    cost -= 0.6
+                    cost -= 1.4 if bough else 0.6
                 if items[0].group.height > 1 and link.kind == "on" and not child:
                     # "A stack of plates is on the desk. A cup is on top of it": what is stacked carries.
                     likely = min(likely, _STACKED)

@@ -8,7 +8,7 @@ from itertools import product
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
-from pat3d.plan.grammar.meaning.attached import bears, slip_under
+from pat3d.plan.grammar.meaning.attached import bears, crowding, slip_under, with_its_carrier
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.objects import forget_count, multiply, recount
@@ -24,8 +24,6 @@ _HALVES: dict[str, LateralKind] = {
 """What stands in for a half of what has no surface."""
 _HARDLY_CARRIED = 0.9
 """Cost of being on what only hands would hold it on, see Plausible.on."""
-
-
 _NEIGHBOURS = 3
 """Things that one can stand next to."""
 _PAIRS = 30
@@ -260,6 +258,7 @@ class Relating:
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         self._settle(children, parents)
+        self.cost += crowding(world, children, parent) if kind == "on" else 0.0
         if link.said == "over":
             world.over += _paired(children, parents)
         lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
@@ -313,6 +312,7 @@ class Relating:
     def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
         """`children` stand on both sides of `parents`, or at both ends of its top."""
         world = self.world
+        children = with_its_carrier(world, children, parents)
         group = children[0].group
         seat = world.is_a(parents[0], lexicon.SEATS)
         level = world.is_a(parents[0], lexicon.LEVEL, ("piano",)) and not world.on_floor(children[0])

@@ -81,6 +81,24 @@ class SharedOut(Contrast):
                 self._world.supports.pop(item, None)
         return free[:wanted]
 
+    def _again(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """The one thing named before that "on a sofa" at chunk `at` names again; None where it is one more.
+
+        "A room with a desk and a rug. On a desk stands a lamp."; where that bears something already there are two.
+        """
+        if self.asked or phrase.opening not in ("a", "an") or not any(at in other for _, other in self.related):
+            return None
+        like = [group for group in self._world.groups[: self._world.settled] if group.noun == phrase.noun]
+        link, plain = self._chunks[at - 1].link, all(one.modifiers == NO_MODIFIERS for one in (phrase, *like))
+        if len(like) != 1 or len(like[0].items) != 1 or not plain or link is None or link.kind not in SUPPORT_KINDS:
+            return None
+        (own,), bears = like[0].items, {edge.parent for edge in self._world.supports.values() if not edge.weak}
+        if not self._world.on_floor(own) or like[0].said != phrase.said:
+            return None
+        again = "one more" if own in bears else "the one named before"
+        self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as {again}.')
+        return None if own in bears else [own]
+
     def _counted_before(self, at: int, phrase: Phrase) -> list[Item]:
         """Of what "one spoon" at chunk `at`, which opens a clause that tells of it, may be some; nothing without."""
         opens = at == 0 or self._chunks[at - 1].kind in _OPENS
@@ -99,7 +117,10 @@ class SharedOut(Contrast):
         if _MORE & {*words} or phrase.plural != (phrase.count > 1):
             return []
         groups = [group for group in self._world.groups[: self._world.settled] if not group.replaced]
-        groups = [group for group in groups if group.noun == phrase.noun and group.said == phrase.said]
+        name, bare = phrase.said or phrase.head, phrase.modifiers == NO_MODIFIERS
+        # "Between two wine bottles. One bottle is open."
+        shorter = [group for group in groups if len(group.items) > 1 and group.said.split()[-1] == name]
+        groups = [group for group in groups if group.said == name or (bare and group in shorter)]
         if not groups or phrase.modifiers not in (NO_MODIFIERS, groups[-1].modifiers):
             return []
         if len(groups[-1].items) > phrase.count:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -10,12 +11,16 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
-from pat3d.plan.grammar.words.number_words import counted_before, number_of
+from pat3d.plan.grammar.words.number_words import counted_before, number_of, numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
 _EVENLY = frozenset({"equally", "evenly"})
 _IN_ALL = (("in", "total"), ("in", "all"), ("altogether",), ("overall",), ("in", "each"))
+_SIDES = re.compile(
+    r" , (\w+) (?:on|along|at) (?:each|either|both) (?:long |longer )?sides?(?: of (?:the )?\w+)?(?: ,)? and (\w+)"
+    r" (?:on|at) (?:each|either|both) (?:short |shorter )?(?:end|side)s?(?: of (?:the )?\w+)?(?= [,.;])"
+)
 _GROUPS = frozenset({"groups", "clusters"})
 
 
@@ -102,8 +107,15 @@ def _counted_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def without_shares(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` without ", two in each" behind "six apples are in three bowls": they are shared out evenly anyway."""
+    """`tokens` without ", two in each" behind "six apples are in three bowls": they are shared out evenly anyway.
+
+    So without ", three on each side and one at either end" behind "eight chairs around a table", which the audit names.
+    """
     words = [token.text for token in tokens]
+    if sides := _SIDES.search(said := " ".join(words)):
+        first, size = said[: sides.start()].count(" "), sides[0].count(" ")
+        if 2 * sum(map(numeral, sides.groups())) in map(number_of, words[:first]):
+            return [*tokens[: first + 1], *tokens[first + 1 + size :]]
     for each in (at for at in range(6, len(words) - 1) if words[at] == "each"):
         tail = next((n for n in range(each - 1, each - 6, -1) if tokens[n].mark), each)
         start = max((n + 1 for n in range(tail) if words[n] == "."), default=0)

@@ -120,6 +120,12 @@ def _with_levels(words: Sequence[str], at: int, subject: tuple[str, ...], nouns:
 
 def _level(words: Sequence[str], at: int, *, told: bool) -> tuple[int, str]:
     """The size of "the upper tier" at token `at`, and which it is; 0 where no level is spoken of alone."""
+    if (
+        words[at - 1] in (",", ":", ";", "and")
+        and words[at] in lexicon.LEVELS
+        and {*words[at + 1 : at + 2]} & {*_LEVELS}
+    ):
+        return 2, words[at]
     if words[at] not in ("the", "its", "this") or at + 4 > len(words):
         return 0, ""
     height, head, after = words[at + 1 : at + 4]

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
 
+_POINTING = frozenset({"that", "this", "those", "these"})
+
 
 def opening(tokens: Sequence[Token], at: int) -> tuple[int, int | None, dict[str, bool]]:
     """Determiners and numbers from token `at`: the token after them, the count and the flags of a phrase."""
@@ -46,8 +48,8 @@ def opening(tokens: Sequence[Token], at: int) -> tuple[int, int | None, dict[str
             count = lexicon.NUMBERS[word]
         elif word == "more" and count is not None and "another" not in flags:
             flags["another"] = True
-        elif word in ("a", "an") and flags.get("determined"):
-            # "and that one a lemon" is of two things.
+        elif flags.get("determined") and (word in ("a", "an") or (word == "the" and tokens[at - 1].text in _POINTING)):
+            # "and that one a lemon", "on those the small one" are of two things.
             break
         elif word in lexicon.DETERMINERS:
             flags["determined"] = True

@@ -267,6 +267,8 @@ OVERHANGING = ("table", "desk", "coffee table", "side table", "dining table", "w
     "bed", "ping pong table", "picnic table", "ironing board", "shelf", "cart", "trolley", "sawhorse",
     "plant stand")  # fmt: skip
 """What stands on legs, so that things can stand below it."""
+BOUGHS = ("tree", "rod")
+"""What something is below rather than below the bird on it; a branch is made as a rod."""
 COVERS = ("bowl", "fruit bowl", "mixing bowl", "cup", "mug", "glass", "tumbler", "teacup", "basket", "bucket", "pot",
     "saucepan", "cooking pot", "bin", "colander", "storage box", "crate", "planter", "flowerpot", "flower pot",
     "laundry basket", "pail", "jar", "beaker", "ramekin", "pen holder", "wastebasket", "trash can",

@@ -30,8 +30,13 @@ COLOURED = "coloured"
 _MIXED = {**MIXED, COLOURED: MIXED["colorful"], "multicoloured": MIXED["multicolored"],
           "multi-colored": MIXED["multicolored"], "multi-coloured": MIXED["multicolored"],
           "rainbow-colored": MIXED["rainbow"]}  # fmt: skip
-_NO_ADJECTIVE = frozenset({"fruit", "cake", "food", "soap", "electronics", "foliage", "bread", "upholstery"})
-"""Materials whose name before a noun means a purpose ("fruit bowl", "soap dish")."""
+_NO_ADJECTIVE = frozenset({"fruit", "cake", "food", "soap", "electronics", "foliage", "bread", "upholstery",
+                           "skin"})  # fmt: skip
+"""Materials and colours whose name before a noun means a purpose ("fruit bowl", "soap dish", "bread knife")."""
+_WORKED = frozenset({"cutter", "clip", "knife", "shredder", "sorter", "punch", "holder", "weight", "cleaner", "chisel",
+                     "file", "screw", "stove", "softener"})  # fmt: skip
+_HELD = frozenset({("cream", "jug"), ("cream", "pitcher"), ("mustard", "jar"), ("mustard", "pot"), ("olive", "jar"),
+                   ("peach", "can")})  # fmt: skip
 _COLOUR_FIRST = frozenset({"golden", "bronze", "copper", "gold", "silver"})
 _ADJECTIVES = frozenset({
     "soft", "simple", "bright", "modern", "old", "new", "cute", "round", "square", "tall", "short", "long", "wide",
@@ -90,8 +95,8 @@ class Modifiers:
 NO_MODIFIERS = Modifiers()
 
 
-def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifiers:
-    """Sort modifier `words`; `hidden` are words of the noun's own name, read for colour and material only."""
+def read_modifiers(words: Sequence[str], hidden: Sequence[str] = (), head: str = "") -> Modifiers:
+    """Sort modifier `words` of `head`; `hidden` are words of the noun's own name, read for colour and material only."""
     colours: list[str] = []
     adjectives: list[str] = []
     palette_word = material_word = size_word = ""
@@ -123,6 +128,8 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifier
         elif word in lexicon.SIZES:
             scale *= lexicon.SIZES[word]
             size_word = size_word or word
+        elif _is_purpose(word, follower if follower or hidden else head):
+            adjectives.append(word)
         elif (found := _material(word)) and word not in _COLOUR_FIRST:
             material, material_word = found, word
         elif colour := find_colour(word):
@@ -130,6 +137,8 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = ()) -> Modifier
         else:
             adjectives.append(word)
     for word in hidden:
+        if _is_purpose(word, head):
+            continue
         if (found := _material(word)) and not material:
             material = found
         elif (colour := find_colour(word)) and not colours:
@@ -168,9 +177,17 @@ def _material(word: str) -> str | None:
     return None if word in _NO_ADJECTIVE else find_material(word)
 
 
+def _is_purpose(word: str, head: str) -> bool:
+    """Whether `word` before `head` says what that is for, and not what it is made of: a "paper" clip, a "cream" jug."""
+    worked = word in ("paper", "wood", "glass", "fabric", "straw") and head in _WORKED
+    return worked or word in _NO_ADJECTIVE or (word, head) in _HELD
+
+
 def is_colour_word(word: str) -> bool:
     """Whether `word` is a colour, alone or in a hyphenated word."""
-    return bool(find_colour(word)) or ("-" in word and any(find_colour(part) for part in word.split("-")))
+    return bool(find_colour(word) and word not in _NO_ADJECTIVE) or (
+        "-" in word and any(find_colour(part) for part in word.split("-"))
+    )
 
 
 def is_part_colour(word: str) -> bool:
