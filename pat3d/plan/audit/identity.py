@@ -202,7 +202,7 @@ def _parts_as_things(it: Compared) -> Iterator[tuple[int, str]]:
     for obj in it.plan.objects:
         said = obj.phrase.lower().split()
         if (
-            said[0] in ("its", "their")
+            said[:1] in (["its"], ["their"])
             and {said[-1], *singulars(said[-1])} & _FAST
             and obj.phrase.lower() not in it.told
         ):
