@@ -7,7 +7,7 @@ from dataclasses import replace
 from pat3d.assets.colours import COLOURS
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.modifiers import COLOURED, Modifiers
+from pat3d.plan.grammar.words.modifiers import ONE_OF, Modifiers
 
 _PUT_ON = frozenset({"bow", "ribbon", "scarf", "sticker", "label", "strap", "lace"})
 """Parts that are things of their own."""
@@ -22,7 +22,7 @@ def share_colours(group: Group) -> None:
     mixed = any(len(COLOURS.keys() & {*word.split("-")}) > 1 for word in group.words.lower().split())
     if palette and count == 1 and not named:
         # "A colored mat" has one colour, which is not said.
-        own = palette if group.modifiers.palette_word != COLOURED else ()
+        own = palette if group.modifiers.palette_word not in ONE_OF else ()
         group.modifiers = replace(group.modifiers, colours=own)
         return
     shared = palette or (
