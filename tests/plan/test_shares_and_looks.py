@@ -88,6 +88,11 @@ def test_where_a_thing_is_is_read_behind_the_same_verbs(prompt: str, relations: 
     assert told(PLANNER.plan(prompt))[1] == relations
 
 
+def test_the_remaining_one_is_one_of_them() -> None:
+    plan = told(PLANNER.plan("Two jars are on a tray. One of them is red, the remaining one is blue."))
+    assert plan == ("red jar, blue jar, tray", "red jar on tray, blue jar on tray", None, [])
+
+
 def test_a_place_of_several_that_is_inserted_is_a_sentence_of_its_own() -> None:
     plan = told(PLANNER.plan("A desk with two monitors and, in front of them, a keyboard."))
     assert plan[:2] == ("desk, monitor 1, monitor 2, keyboard", "monitor 1 on desk, monitor 2 on desk, "

@@ -85,7 +85,8 @@ def _seeming(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         start = at - (words[at - 1] in ("has", "have", "had"))
         subject = words[start - 1] in ("it", "they", "that", "which") or nouns.match([words[start - 1]]) is not None
         subject = subject or words[max(start - 2, 0)] in lexicon.DETERMINERS
-        if (base_verb(words[at]) or words[at][:4]) not in _SEEMING or not start or not subject:
+        seems = (base_verb(words[at]) or words[at][:4]) in _SEEMING and not words[at].endswith("ing")
+        if not seems or not start or not subject or words[start - 1] == "the":
             continue
         joined = ("and", "but") if words[at] not in ("get", "go", "keep") else ()
         end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or _tells(tokens, n, nouns)
