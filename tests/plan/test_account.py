@@ -73,7 +73,7 @@ def test_what_is_not_read_is_named(sentence: str, word: str):
 @pytest.mark.parametrize(
     ("sentence", "why"),
     [
-        ("Half of the blocks are red.", r'"half" \(word 1\): say how many in numbers'),
+        ("Most of the blocks are red.", r'"most" \(word 1\): say how many in numbers'),
         ("Two pieces of fruit, but none of them are pears.", r'"none" \(word 6\): a prompt says what is there'),
         ("A plant stands either on the desk or beside it.", r'"either" \(word 4\): say the one thing'),
         ("A mug is behind it.", r'"it" \(word 5\): nothing before it is meant'),

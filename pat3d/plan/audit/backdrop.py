@@ -22,15 +22,9 @@ def by_backdrop(it: Compared) -> Iterator[tuple[int, str]]:
     for at, word in enumerate(words):
         if word not in _STRUCTURES or word not in aside or any(one.start <= at < one.end for one in it.said.mentions):
             continue
-        found = next(
-            (
-                n - size
-                for n in range(at, max(at - _MOST, 0), -1)
-                for size in range(min(LONGEST, n), 0, -1)
-                if RELATIONS.get(tuple(words[n - size : n])) not in (None, "with", "holding")
-            ),
-            None,
-        )
+        spans = ((n - size, n) for n in range(at, max(at - _MOST, 0), -1) for size in range(min(LONGEST, n), 0, -1))
+        related = ((n, RELATIONS.get(tuple(words[n:end]))) for n, end in spans)
+        found = next((n for n, relation in related if relation not in (None, "with", "holding")), None)
         said = " ".join(words[found : at + 1])
         told = any(word in note and "set aside" in note for note in it.plan.notes)
         if found is not None and not told and said not in it.quoted:

@@ -30,19 +30,10 @@ _PLURALS = frozenset({"they", "them", "both"})
 
 def shares(it: Compared) -> Iterator[tuple[int, str]]:
     """What only some of several have though it is said of more."""
-    yield from _held_by_all(it)
-    yield from _the_rest(it)
-    yield from _by_colour(it)
-    yield from _told_apart(it)
-    yield from _gapped(it)
-    yield from _all_posed(it)
-    yield from _unstacked(it)
-    yield from _plural_pronouns(it)
-    yield from _accompanied(it)
-    yield from _all_but_one(it)
-    yield from _told_together(it)
-    yield from _out_of_each(it)
-    yield from _counted_list(it)
+    for find in (_held_by_all, _the_rest, _by_colour, _told_apart, _gapped, _all_posed, _unstacked,
+                 _plural_pronouns, _accompanied, _all_but_one, _told_together, _out_of_each,
+                 _counted_list):  # fmt: skip
+        yield from find(it)
 
 
 def _held_by_all(it: Compared) -> Iterator[tuple[int, str]]:

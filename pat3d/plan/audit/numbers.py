@@ -27,19 +27,9 @@ _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 
 def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     """Numbers of which the plan has others."""
-    yield from _miscounted_shares(it)
-    yield from _shares_of_each(it)
-    yield from _shares_of_sides(it)
-    yield from _all_but(it)
-    yield from _dozens(it)
-    yield from _as_many(it)
-    yield from _in_brackets(it)
-    yield from _alike(it)
-    yield from _of_one(it)
-    yield from _stacked(it)
-    yield from _partly(it)
-    yield from _compared_sizes(it)
-    yield from _held_by_other(it)
+    for find in (_miscounted_shares, _shares_of_each, _shares_of_sides, _all_but, _dozens, _as_many,
+                 _in_brackets, _alike, _of_one, _stacked, _partly, _compared_sizes, _held_by_other):  # fmt: skip
+        yield from find(it)
 
 
 def had_by_each(it: Compared, mention: Mention) -> bool:

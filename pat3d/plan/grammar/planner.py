@@ -31,6 +31,7 @@ from pat3d.plan.grammar.rewriting.compass import compass
 from pat3d.plan.grammar.rewriting.denials import without_denials
 from pat3d.plan.grammar.rewriting.distances import with_distances
 from pat3d.plan.grammar.rewriting.distractors import without_distractors
+from pat3d.plan.grammar.rewriting.fractions import in_numbers
 from pat3d.plan.grammar.rewriting.instructions import Clause, clauses
 from pat3d.plan.grammar.rewriting.laid_tables import laid_tables
 from pat3d.plan.grammar.rewriting.lettering import lettering
@@ -116,6 +117,7 @@ class GrammarPlanner(Sparing):
         tokens, distracting = without_distractors(text, tokenise(text))
         tokens, halved = arcs(text, tokens)
         tokens, charted = compass(text, tokens)
+        tokens, shares = in_numbers(text, tokens, self._nouns)
         tokens = in_plain_words(text, tokens, self._nouns)
         company = {word for token in tokens for word in (token.text, *singulars(token.text))}
         said, aside = unaddressed(text, sentences(tokens, self._nouns), self._nouns)
@@ -126,7 +128,8 @@ class GrammarPlanner(Sparing):
         told, beside_robot, means = without_actor(text, told)
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
-        world.notes += [*(f'not modelled: "{each}"' for each in away), *which, *halved, *charted, *distracting]
+        away = [f'not modelled: "{each}"' for each in away]
+        world.notes += [*away, *which, *halved, *charted, *shares, *distracting]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

@@ -8,7 +8,7 @@ from pat3d.assets.colours import COLOURS
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.modifiers import COLOURED, Modifiers
+from pat3d.plan.grammar.words.modifiers import ONE_OF, Modifiers
 from pat3d.plan.grammar.words.sizes import extents
 
 _PUT_ON = frozenset({"bow", "ribbon", "scarf", "sticker", "label", "strap", "lace"})
@@ -24,7 +24,7 @@ def share_colours(group: Group) -> None:
     mixed = any(len(COLOURS.keys() & {*word.split("-")}) > 1 for word in group.words.lower().split())
     if palette and count == 1 and not named:
         # "A colored mat" has one colour, which is not said.
-        own = palette if group.modifiers.palette_word != COLOURED else ()
+        own = palette if group.modifiers.palette_word not in ONE_OF else ()
         group.modifiers = replace(group.modifiers, colours=own)
         return
     shared = palette or (

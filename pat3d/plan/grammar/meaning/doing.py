@@ -26,7 +26,7 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift", "roll", "sweep"})
 """Verbs that leave a thing on what it is on."""
-_TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab"})
+_TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
@@ -224,6 +224,7 @@ class Doing(Placing):
                 self._relating.relate(children, Link(kind="on"), parents[:1])
             self._clause = replace(self._clause, manner="other")
         self._from_there(children, parents)
+        self._out_of_opened(children, parents)
         for item, goal in by_colour(self._world, self._clause.said, children, parents):
             self._step([item], link, [goal])
             children = []
@@ -268,11 +269,7 @@ class Doing(Placing):
             below = [self._world.support(item) for item in children]
             bare = not any(self._world.support(item) in children for item in self._world.items())
             children = [item for item in below[:1] if item is not None and bare] or children
-        opened = self._world.steps[-1:] if self._clause.verb in _TAKING_OUT and children else []
-        said = opened[0].said.lower().split() if opened else []
-        if said[:1] == ["open"] and len(opened[0].items) == 1 and self._may_hold(opened[0].items[0], children):
-            # "Open the box and remove the ring": out of the box.
-            self._relating.relate(children, Link(kind="in"), list(opened[0].items))
+        self._out_of_opened(children, [])
         out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
         if out and children and all(self._world.support(item) is None for item in children):
             named = f'"{children[0].group.words}"'
@@ -295,12 +292,21 @@ class Doing(Placing):
         elif self._clause.manner != "make" or not made_up:
             self._step(children, None, [])
 
+    def _out_of_opened(self, children: list[Item], goal: list[Item]) -> None:
+        """Put `children`, which are taken to `goal`, in what is opened before: "open the box and remove the ring"."""
+        steps = [step for step in self._world.steps if SHUTTING & {*step.said.lower().split()[:1]}]
+        opened = steps[-1].items if steps and steps[-1].said.lower().startswith("open ") else ()
+        taken = self._clause.verb in _TAKING_OUT and children and len(opened) == 1 and opened[0] not in goal
+        if taken and self._may_hold(opened[0], children):
+            self._relating.relate(children, Link(kind="in"), list(opened))
+
     def _may_hold(self, holder: Item, items: Sequence[Item]) -> bool:
         """Whether `holder` is of what things are in, and `items`, which were not told of before, are nowhere yet."""
         world = self._world
         holds = world.likely.hollow(world.noun(holder)) or world.is_a(holder, tuple(lexicon.OPENED), lexicon.CLOSED)
         holds = holds or world.likely.closet(world.noun(holder))
         new = all(item.group not in self._said.before and item is not holder for item in items)
+        new = new and not any(world.is_a(item, lexicon.ON_RIMS, lexicon.FLOOR) for item in items)
         return holds and new and all(world.support(item) is None for item in items)
 
     def _step(self, children: list[Item], link: Link | None, parents: list[Item], part: str = "") -> None:

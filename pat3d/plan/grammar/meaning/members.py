@@ -23,7 +23,7 @@ from pat3d.plan.grammar.meaning.matching import (
 from pat3d.plan.grammar.meaning.objects import recount, tell_colours
 from pat3d.plan.grammar.meaning.unlike import one_of_unlike
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
+from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, TONES
 
 _APART = 0.7
 """What it costs where only some of those of which "each" speaks are on a tray, or one of them is on "each"."""
@@ -82,9 +82,10 @@ class Members(ByPlace):
         if self._told_otherwise(group, phrase):
             return []
         items, where = group.items, position(phrase)
-        wanted = phrase.modifiers.colours
+        told_by = phrase.modifiers
+        wanted = {*told_by.colours[:1], *(told_by.palette if told_by.palette_word in TONES else ())}
         if wanted:
-            own = [item for item in items if colours_of(item) and wanted[0] in colours_of(item)]
+            own = [item for item in items if wanted & {*colours_of(item)}]
             blank = [item for item in items if not colours_of(item)]
             items = own or (blank if len(items) == len(blank) else [])
         if phrase.count is not None and phrase.count > len(items):

@@ -18,7 +18,7 @@ from pat3d.plan.grammar.meaning.world import MAX_OBJECTS, World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.modifiers import (
-    COLOURED,
+    ONE_OF,
     Modifiers,
     is_colour_word,
     is_modifier,
@@ -90,7 +90,7 @@ class Maker:
             world.note(f'"{phrase.words}": {assumed}{", ".join(stand_in)}; which is not said.')
         if kind is not None:
             self._take_after(world, group, kind)
-        if count == 1 and phrase.modifiers.palette_word == COLOURED and not phrase.modifiers.colours:
+        if count == 1 and phrase.modifiers.palette_word in ONE_OF and not phrase.modifiers.colours:
             world.note(f'not modelled: of what colour "{phrase.words}" is')
         share_colours(group)
         world.groups.append(group)
@@ -102,7 +102,8 @@ class Maker:
         said = f'"{phrase.words}"'
         idle: list[str] = []
         for word in (told or phrase.modifiers).adjectives:
-            if word in lexicon.SAID_OTHERWISE or word in lexicon.SHADE_WORDS:
+            shaded = word not in ("light", "pale") or phrase.modifiers.colours or phrase.modifiers.material
+            if word in lexicon.SAID_OTHERWISE or (word in lexicon.SHADE_WORDS and shaded):
                 continue
             if word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word):
                 continue

@@ -48,7 +48,7 @@ def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
     tokens = from_one_side(outnumbering(tokens, nouns), nouns)
-    whole = _one_and_others(_on_the_other(_on_both(stacked_high(_all_but(_every_but(_fractions(tokens)))))))
+    whole = _one_and_others(_on_the_other(_on_both(stacked_high(_all_but(_every_but(tokens))))))
     return without_shares(counted_in_each(shared_by_colour(whole, nouns), nouns))
 
 
@@ -62,36 +62,6 @@ def _rounded(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         place = token.text == "around" and (before in _SURROUNDING or nouns.match([before]) is not None)
         if place or not about or tokens[at + 1].text in single:
             made.append(token)
-    return made
-
-
-def _fractions(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "half of the ten balls" as "five of the ten balls", and "the other half" as "the other five"."""
-    made = list(tokens)
-    at = half = 0
-    while at < len(made) - 2:
-        words = [token.text for token in made[at : at + 5]]
-        half = 0 if words[0] == "." else half
-        bare = words[0] == "half" and is_colour_word(words[1]) and at > 1 and made[at - 1].text in (",", ":", "and")
-        if (
-            bare
-            and (half or singulars(made[at - 2].text))
-            and (half or counted_before(made, at) % 2 == 0 < counted_before(made, at))
-        ):
-            # "Six pens, half red, half blue"
-            made[at + 1 : at + 1] = [replace(made[at], text=word) for word in ("of", "them")]
-            words = [token.text for token in made[at : at + 5]]
-        size = 2 if words[:2] == ["half", "of"] else 1
-        if words[0] == "half" and words[size] in ("the", "them", "these"):
-            # "Six pens, half of them red and half of them blue": both of the six.
-            number = number_of(words[size + 1]) if words[size] == "the" else 2 * half or counted_before(made, at)
-            if number and number % 2 == 0:
-                half = number // 2
-                of = replace(made[at], text="of")
-                made[at : at + size] = [replace(made[at], text=str(half)), of]
-        elif words[:3] == ["the", "other", "half"] and half:
-            made[at + 2 : at + 3] = [replace(made[at + 2], text=str(half))]
-        at += 1
     return made
 
 

@@ -32,7 +32,9 @@ _POLITE = tuple(sorted((tuple(said.split()) for said in (
     "it would be great if you could", "it would be nice if you could", "it would be helpful if you could",
     "i would appreciate it if you could", "i'd appreciate it if you could", "i'd be grateful if you could",
     "don't forget to", "remember to", "go ahead and", "feel free to", "try to", "you may", "you can", "you could",
-    "your job is to", "you are to", "you will", "i'd like to have you",
+    "your job is to", "you are to", "you will", "i'd like to have you", "how to", "show me how to", "tell me how to",
+    "what is the best way to", "what's the best way to", "can you show me how to", "how about",
+    *(f"how {do} {who}" for do in ("do", "would", "can", "could", "should") for who in ("you", "i", "we", "one")),
 )), key=len, reverse=True))  # fmt: skip
 """What an instruction begins with and is none of it."""
 _ABLE = frozenset({"can", "could", "may", "might"})
@@ -119,11 +121,8 @@ def _able(sentence: list[Token]) -> list[Token]:
     after = go + 1 + (words[go] == "be")
     if not go or any(token.mark for token in sentence[:go]) or not link_at(sentence, after):
         return sentence
-    return [
-        replace(sentence[0], text="move" if words[go + 1] == "moved" else "put"),
-        *sentence[1:go],
-        *sentence[after:],
-    ]
+    verb = replace(sentence[0], text="move" if words[go + 1] == "moved" else "put")
+    return [verb, *sentence[1:go], *sentence[after:]]
 
 
 def _making_room(sentence: list[Token]) -> list[Token]:
@@ -137,12 +136,8 @@ def _making_room(sentence: list[Token]) -> list[Token]:
         return sentence
     to = next((n for n in range(by + 3, len(words)) if sentence[n].mark or link_at(sentence, n)), 0)
     source = [replace(sentence[on], text="from"), *sentence[on + 1 : by]]
-    return [
-        replace(sentence[by + 1], text=verb, start=sentence[0].start),
-        *sentence[by + 2 : to],
-        *source,
-        *sentence[to:],
-    ]
+    deed = replace(sentence[by + 1], text=verb, start=sentence[0].start)
+    return [deed, *sentence[by + 2 : to], *source, *sentence[to:]]
 
 
 def _emptied(sentence: list[Token]) -> list[Token]:
@@ -174,9 +169,8 @@ def _lowered(sentence: list[Token]) -> list[Token]:
     if words[:2] == ["scoop", "up"]:
         return [replace(sentence[0], text="pick"), *sentence[1:]]
     for at in range(len(words) - 4):
-        opens = (
-            not at or sentence[at - 1].mark or words[at - 1] in ("and", "then", "please") or words[at - 1][-2:] == "ly"
-        )
+        opens = not at or sentence[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        opens = opens or words[at - 1].endswith("ly")
         if words[at] in _INTO and opens and words[at + 1] in _LEADS | {"it", "them"}:
             ends = (n for n in range(at + 2, len(words)) if link_at(sentence, n) or words[n] in (".", ":"))
             if words[next(ends)] in ("in", "into", "on", "onto"):

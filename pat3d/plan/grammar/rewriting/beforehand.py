@@ -46,27 +46,12 @@ def ones_named(told: Sequence[list[Token]], nouns: Nouns) -> list[list[Token]]:
         if (same := _same_with(before, sentence[again:])) is not None:
             made += [[*before, sentence[-1]], same] if again else [same]
             continue
-        at = next(
-            (
-                n
-                for n in range(len(words) - 4)
-                if words[n : n + 2] == ["the", "one"]
-                and (words[n + 2] in ("from", "off") or words[n + 4] in ("floor", "ground"))
-            ),
-            None,
-        )
+        ones = (n for n in range(len(words) - 4) if words[n : n + 2] == ["the", "one"])
+        at = next((n for n in ones if words[n + 2] in ("from", "off") or words[n + 4] in ("floor", "ground")), None)
         named = [replace(token, number=sentence[at + 1].number) for token in kind] if at is not None else []
         made.append([*sentence[: at + 1], *named, *sentence[at + 2 :]] if at is not None and named else sentence)
-        joint = next(
-            (
-                n
-                for n in range(3, len(words) - 3)
-                if words[n] == "and"
-                and words[n + 1] in ("one", "another")
-                and (link_at(sentence, n + 2) or link_at(sentence, n + 3))
-            ),
-            0,
-        )
+        more = (n for n in range(3, len(words) - 3) if words[n] == "and" and words[n + 1] in ("one", "another"))
+        joint = next((n for n in more if link_at(sentence, n + 2) or link_at(sentence, n + 3)), 0)
         first = next((n for n in range(joint) if words[n] in ("a", "an")), joint)
         sizes = (n for n in (3, 2, 1) if nouns.match(words[first + 1 : first + 1 + n]))
         kind = sentence[first + 1 : first + 1 + next(sizes, 0)] if joint else kind
@@ -130,11 +115,8 @@ def _carrying(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
         had = next((n for n in range(first + 1, len(words)) if sentence[n].mark or link_at(sentence, n)), 0)
         if words[had] != "with" or words.count(words[had - 1]) > 1:
             continue
-        ends = (
-            n
-            for n in range(had + 2, len(words))
-            if sentence[n].mark or link_at(sentence, n) or words[n] in _OTHERWISE | lexicon.DIRECTIONS
-        )
+        ends = (n for n in range(had + 2, len(words)) if sentence[n].mark or link_at(sentence, n)
+                or words[n] in _OTHERWISE | lexicon.DIRECTIONS)  # fmt: skip
         end = next(ends, 0)
         if not end or (words[at] in FILLING and words[end] not in ("to", "into", "onto")):
             # "Fill the bowl with the figs on the mat": no bowl with figs is there.
@@ -184,11 +166,8 @@ def _around(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """Tell "wipe the desk around the globe" as "the globe is on the desk", "wipe the desk"."""
     words = [token.text for token in sentence]
     at = words.index("around") if "around" in words else 0
-    end = next(
-        n
-        for n in range(at, len(words))
-        if sentence[n].mark or words[n] == "then" or (words[n] == "and" and words[n + 1] not in _LEADS)
-    )
+    ends = (n for n in range(at, len(words)) if sentence[n].mark or words[n] in ("and", "then"))
+    end = next(n for n in ends if words[n] != "and" or words[n + 1] not in _LEADS)
     first = next((n for n in range(1, at) if words[n] in _LEADS), 0)
     top, mark = (_name(words, n, nouns) for n in (at, end))
     if not first or words[0] not in _CLEANING or top is None or mark is None or words[at + 1] not in _LEADS:

@@ -21,7 +21,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _TIDYING = frozenset({
     "tidy", "separate", "clean", "clear", "organize", "organise", "sort", "pack", "store", "stow", "unpack",
-    "distribute", "rearrange", "collect", "gather", "group", "restore", "straighten", "put", "move", "return",
+    "distribute", "rearrange", "collect", "gather", "group", "restore", "straighten", "put", "move", "return", "empty",
+    "unload",
 })  # fmt: skip
 """Verbs of what is there, behind which "pens in the cup" is no scene to make."""
 _PUTTING = frozenset({"put", "place", "set", "lay", "move", "bring", "take", "return"})
@@ -35,6 +36,8 @@ _SOURCES = frozenset({"from", "off", "out"})
 def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """`sentence`, where it is an instruction, with what its list names, or with where each thing is to go."""
     colon = next((n for n in range(2, len(sentence) - 2) if sentence[n].text in (":", "-")), 0)
+    comma = next((n for n in range(2, len(sentence) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
+    colon = colon or (comma if _lists_goals(sentence[:comma], sentence[comma + 1 :], nouns) else 0)
     verb = asked(sentence, nouns) if colon else ""
     told = [token for token in sentence[colon + 1 : -1] if token.text not in _ORDER]
     if not verb or not told:
@@ -52,6 +55,26 @@ def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
         there = [replace(head[0], text=word) for word in ("there", "are")]
         return [[*there, *told, end[-1]], [*head, end[-1]]]
     return [[*_listed(head, listed, end, nouns), end[-1]]]
+
+
+def with_goals(told: Sequence[list[Token]], nouns: Nouns) -> list[list[Token]]:
+    """`told` with "empty the box; pens in the cup, books on the shelf" as "empty the box: pens in the cup, ..."."""
+    made: list[list[Token]] = []
+    for sentence in told:
+        if made and _lists_goals(made[-1][:-1], sentence, nouns):
+            made[-1] = [*made[-1][:-1], replace(made[-1][-1], text=":"), *sentence]
+        else:
+            made.append(sentence)
+    return made
+
+
+def _lists_goals(head: Sequence[Token], told: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `told`, which ends in a stop, says where each thing is to go that `head` tidies."""
+    plain = bool(told) and not any(token.mark or link_at(head, n) for n, token in enumerate(head))
+    bare = plain and told[0].text not in ("a", "an", "there") and not numeral(told[0].text)
+    bare = bare and not {"go", "goes"} & {token.text for token in told}
+    tidies = bare and asked([*head, told[-1]], nouns) in _TIDYING - _PUTTING
+    return tidies and len(goals_of(told[:-1])) > 1 and not asked(told, nouns)
 
 
 def _is_named(item: Sequence[Token], nouns: Nouns) -> bool:

@@ -75,14 +75,8 @@ def by_which(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         end = at - (tokens[at - 1].text == ",")
         told = end < at or after > which + 1
-        name = next(
-            (
-                n
-                for n in (3, 2, 1)
-                if told and n <= end and nouns.match([token.text for token in tokens[end - n : end]])
-            ),
-            0,
-        )
+        words = [token.text for token in tokens[:end]]
+        name = next((n for n in (3, 2, 1) if told and n <= end and nouns.match(words[end - n :])), 0)
         if name:
             joint, the = replace(tokens[at], text="and"), replace(tokens[which], text="the")
             owner = [the, *tokens[end - name : end]] if tokens[at].text != "between" else [replace(the, text="them")]
@@ -237,11 +231,8 @@ def _last_in_order(tokens: Sequence[Token]) -> list[Token]:
         stop = next(n for n in range(close, len(words)) if tokens[n].mark and words[n] not in (",", ":"))
         owned = words[stop - 2 : stop] in (["on", "it"], ["in", "it"])
         end = stop - 2 if owned and words[at - 1] == "with" else stop
-        verb = (
-            []
-            if words[close + 1] in STANDING or words[at - 1] not in ("it", "them")
-            else [replace(tokens[at], text="are", mark=False)]
-        )
+        stands = words[close + 1] in STANDING or words[at - 1] not in ("it", "them")
+        verb = [] if stands else [replace(tokens[at], text="are", mark=False)]
         return [*tokens[:at], *verb, *tokens[close + 1 : end], *tokens[at + 1 : close], *tokens[stop:]]
     return list(tokens)
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.rewriting.outcomes import put_back
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
@@ -16,6 +17,7 @@ from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove"})
 _UNLOADING = frozenset({"unload", "empty"})
@@ -41,12 +43,12 @@ _WHERE_IT_IS = tuple(tuple(said.split()) for said in (
 ))  # fmt: skip
 
 
-def errands(tokens: Sequence[Token]) -> list[Token]:
+def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what is to be moved, and where to, behind its verb."""
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE)))))))
+    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
 
 
 def _filled_from(tokens: list[Token]) -> list[Token]:
@@ -165,8 +167,11 @@ def _added(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
-def _once_again(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the cup on the tray and then the bowl" as "..., and put the bowl on the tray"."""
+def _once_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "put the cup on the tray and then the bowl" as "..., and put the bowl on the tray".
+
+    So is "put the egg in the bowl and then the basket" as "..., and put it in the basket": no basket is in a bowl.
+    """
     for at in range(len(tokens)):
         if not _commands(tokens, at) or tokens[at].text not in _PUTTING:
             continue
@@ -186,16 +191,32 @@ def _once_again(tokens: Sequence[Token]) -> list[Token]:
                 break
             again = replace(tokens[at], number=tokens[joint].number)
             goal, moved = tokens[joint - 1].text, tokens[link - 1].text
-            if named[-1].text == goal != moved and "to" not in words[at:link]:
-                # "Put the fig on the red plate and then the blue plate": the fig goes there.
-                it = replace(again, text="them" if next(iter(singulars(moved)), moved) != moved else "it")
-                there = [replace(each, number=again.number) for each in tokens[link : link + link_at(tokens, link)]]
-                comma = replace(tokens[joint], text="and", mark=False)
-                return _once_again([*tokens[:joint], comma, again, it, *there, *named, *tokens[stop:]])
-            the = [replace(each, text="the") if each.text in ("a", "an") else each for each in tokens[link:joint]]
+            then = "then" in words[joint : joint + size]
+            further = _further_goal(moved, words[link], goal, named[-1].text, nouns) if then else ""
             comma = replace(tokens[joint], text="and", mark=False)
-            return _once_again([*tokens[:joint], comma, again, *named, *the, *tokens[stop:]])
+            if further or (named[-1].text == goal != moved and "to" not in words[at:link]):
+                # "Put the fig on the red plate and then the blue plate": the fig goes there.
+                many = moved == "them" or next(iter(singulars(moved)), moved) != moved
+                it = replace(again, text="them" if many else "it")
+                there = [replace(each, number=again.number) for each in tokens[link : link + link_at(tokens, link)]]
+                there = [replace(there[0], text=further)] if further else there
+                return _once_again([*tokens[:joint], comma, again, it, *there, *named, *tokens[stop:]], nouns)
+            the = [replace(each, text="the") if each.text in ("a", "an") else each for each in tokens[link:joint]]
+            return _once_again([*tokens[:joint], comma, again, *named, *the, *tokens[stop:]], nouns)
     return list(tokens)
+
+
+def _further_goal(moved: str, link: str, goal: str, named: str, nouns: Nouns) -> str:
+    """Whether what is put on `goal` goes "in" or "on" what is `named` then; "" where that is put on `goal` as well."""
+    thing, below, then = (found.noun if (found := nouns.match([word])) else "" for word in (moved, goal, named))
+    likely, kind = Plausible(nouns), "in" if link in ("in", "into", "inside") else "on"
+    level = likely.level(then)
+    opens = likely.opens(then) and (kind == "in" or not level)
+    if not (below and then) or not (opens or level) or link not in ("in", "into", "inside", "on", "onto", "to"):
+        return ""
+    gain = likely.carried(then, kind, below) - (likely.carried(thing, "in" if opens else "on", then) if thing else 0)
+    large = likely.is_a(then, lexicon.LARGE_VESSELS, lexicon.FLOOR, tuple(lexicon.OPENED))
+    return "" if gain < (0.2 if large else 0.8) else "in" if opens else "on"
 
 
 def _the_rest(tokens: Sequence[Token]) -> list[Token]:

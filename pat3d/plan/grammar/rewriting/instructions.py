@@ -72,16 +72,13 @@ FILLERS = frozenset({
     "please", "kindly", "then", "now", "next", "finally", "first", "firstly", "second", "secondly", "third", "lastly",
     "also", "afterwards", "afterward", "just", "carefully", "gently", "and", ",", "but", "sequentially",
 })  # fmt: skip
-_ASKING = (
-    ("could", "you"), ("can", "you"), ("would", "you"), ("will", "you"), ("you", "should"), ("you", "could"),
-    ("you", "would"), ("you", "must"),
-    ("you", "need", "to"), ("i", "want", "you", "to"), ("help", "me"), ("help", "me", "to"), ("let's",), ("let", "us"),
-    ("your", "task", "is", "to"), ("the", "task", "is", "to"), ("make", "sure", "to"), ("go", "and"), ("you", "have",
-    "to"),
-    ("please", "help", "me"), ("go",), ("remember", "to"), ("after", "that"), ("after", "that", ","), ("after", "this"),
-    ("after", "this", ","), ("once", "done", ","), ("in", "the", "end", ","), ("from", "there", ","),
-    ("once", "that", "is", "done", ","), ("to", "begin", "with", ","), ("to", "start", ","), ("to", "finish", ","),
-)  # fmt: skip
+_ASKING = tuple(tuple(said.split()) for said in (
+    "could you", "can you", "would you", "will you", "you should", "you could", "you would", "you must", "you need to",
+    "i want you to", "help me", "help me to", "let's", "let us", "your task is to", "the task is to", "make sure to",
+    "go and", "you have to", "please help me", "go", "remember to", "after that", "after that ,", "after this",
+    "after this ,", "once done ,", "in the end ,", "from there ,", "once that is done ,", "to begin with ,",
+    "to start ,", "to finish ,",
+))  # fmt: skip
 SHUTTING = frozenset({"open", "close", "shut"})
 """Verbs of doors, drawers and lids."""
 _ACTORS = frozenset({"robot", "arm", "arms", "gripper", "agent", "manipulator", "hand", "hands", "robotic"})
@@ -141,7 +138,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         rest = clauses(text, tokens[comma + 1 :], nouns)
         told = [*there, *(replace(each, first=False) if there else each for each in rest)]
         return [replace(told[0], aside=(text[tokens[0].start : tokens[comma - 1].end], *told[0].aside)), *told[1:]]
-    tokens = commanded(errands(in_order(tokens, opens)))
+    tokens = commanded(errands(in_order(tokens, opens), nouns))
     starts: list[tuple[int, int]] = []
     """Where an instruction begins, and its verb."""
     verb = _verb_at(tokens, 0, nouns, opening=True)

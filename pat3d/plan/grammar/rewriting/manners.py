@@ -15,31 +15,40 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.number_words import number_of
+from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _STYLES = (("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
-_MEASURES = frozenset({"height", "size", "length", "width", "weight", "age", "brightness", "volume"})
+_NUMBER = rf"(?:{'|'.join(lexicon.NUMBERS)}|\d+)"
+_MEASURE = "(?:height|size|length|width|weight|age|brightness|volume)"
+_DIRECTION = "(?:decreasing|increasing|ascending|descending)"
 _EXTREME = (
-    r"(?:largest|smallest|biggest|tallest|shortest|longest|heaviest|lightest|thickest|thinnest|widest|narrowest|big"
-    r"|small|large|tall|short)(?: one)?"
+    r"(?:the )?(?:largest|smallest|biggest|tallest|shortest|longest|heaviest|lightest|thickest|thinnest|widest"
+    r"|narrowest|big|small|large|tall|short)(?: one)?(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 )
-_SIDE = r"(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
-_RANKED = re.compile(rf"from (?:the )?{_EXTREME}{_SIDE} to (?:the )?{_EXTREME}{_SIDE} ")
+_ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
+    r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
+    r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random)",
+    # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
+    r"\S+ than (?:either|both|all)",
+    rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})",
+    rf"in(?:to)? {_NUMBER} (?:groups|clusters)(?: of {_NUMBER})?(?: each)?",
+    # "press the button twice", "push the box until it reaches the edge", "a sofa facing south-west"
+    rf"(?<!than )(?<!and )(?<!as )(?<!or )(?:twice|thrice|(?:{_NUMBER}|{'|'.join(lexicon.VAGUE)}) times)(?! as )",
+    r"(?:, )?(?:until|till) (?!then |now )(?:(?![.,:-] )\S+ )*(?![.,:-] )\S+",
+    r"(?:and |to |parked )*(?:facing|faces?|point(?:ing|ed)|turned|oriented|looking)(?: (?:out|towards?|to|the|due))*"
+    r" (?:(?:north|south)-?(?:east|west)?|east|west)",
+    # "line up the cups by height", "from the largest to the smallest", "in order of decreasing height"
+    rf"by {_MEASURE}(?! and )", rf"(?:, )?from {_EXTREME} to {_EXTREME}",
+    rf"in (?:{_DIRECTION} order(?: of (?:{_DIRECTION} )?{_MEASURE})?|order of (?:{_DIRECTION} )?{_MEASURE})",
+))  # fmt: skip
+"""What is said of how something looks, is turned or is done, wherever it stands."""
 _CLEARING = frozenset({"clear", "remove", "take", "move", "clean", "wipe"})
 _ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
 _EVERYTHING = frozenset({"everything", "anything", "all"})
 
-
-_SAID_SO = tuple(tuple(said.split()) for said in (
-    "in the dark", "in the light", "in the rain", "in the sun", "in bright light", "in dim light", "inside out",
-    "in parallel", "in random order", "in random positions", "in random places", "if possible", "if needed",
-    "if necessary", "where possible", "as needed", "back and forth", "at random", "random",
-))  # fmt: skip
-"""What is said of light and of how something is done, wherever it stands."""
-_DIRECTIONS = frozenset({"decreasing", "increasing", "ascending", "descending"})
 _OUTLINES = UNPLANNED - PLACES - RINGS - {"pyramid", "grid", "matrix", "staircase", "stairway", "cantilever"}
 """Shapes that things standing beside each other have; what is built so has to be told otherwise."""
 _FORMING = frozenset({"form", "forms", "forming", "make", "makes", "making"})
@@ -47,19 +56,66 @@ _SQUARES = ("square", "rectangle")
 """What four alike have in two rows of two."""
 _INSIDE = frozenset({"around", "middle", "center", "centre", "each"})
 _UNSEEN = frozenset({"can't", "cannot", "won't", "isn't", "aren't", "not", "doesn't", "don't", "never", "couldn't"})
+_SEEMING = frozenset({"smell", "feel", "taste", "sound", "seem", "look", "become", "get", "go", "turn", "grow", "stay",
+                      "remain", "keep"})  # fmt: skip
+"""Verbs of what something is like, or comes to be."""
+_NO_ADJECTIVES = frozenset({"like", "as", "to", "if", "that", "up", "down", "away", "out", "off", "over", "around"})
+_BUNCHES = frozenset({"cluster", "bundle", "bunch", "clump", "huddle", "queue", "heap", "group", "knot", "jumble"})
 
 
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, _style, _stuffs, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state,
-                 _labels, in_turn, _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun,
-                 ways.often, ways.until, ways.parallel, ways.leaping):  # fmt: skip
+    for told in (choice, _style, _stuffs, _aside, _ready, _if, _knocking, _outlined, _labels, in_turn, _in_that_order,
+                 _such_that, _alternate, _all_but, _trait, _seeming, _in_a_bunch, ways.begun, ways.parallel,
+                 ways.leaping):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)
             return rest, [*left_out, *more]
     return list(tokens), []
+
+
+def _seeming(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "the soup smells delicious" and "the bread that has gone stale" as "the soup", "the bread".
+
+    Behind such a verb stands an adjective, known or not, wherever no article or relation does: a thing is never named.
+    """
+    for at in range(1, len(words) - 1):
+        start = at - (words[at - 1] in ("has", "have", "had"))
+        subject = words[start - 1] in ("it", "they", "that", "which") or nouns.match([words[start - 1]]) is not None
+        subject = subject or words[max(start - 2, 0)] in lexicon.DETERMINERS
+        seems = (base_verb(words[at]) or words[at][:4]) in _SEEMING and not words[at].endswith("ing")
+        if not seems or not start or not subject or words[start - 1] == "the":
+            continue
+        joined = ("and", "but") if words[at] not in ("get", "go", "keep") else ()
+        end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or _tells(tokens, n, nouns)
+                   or (words[n] in joined and (tokens[n + 1].mark or _tells(tokens, n + 1, nouns))))  # fmt: skip
+        said = [word for word in words[at + 1 : end] if word not in joined]
+        plain = said and len(said) < 5 and not {*said} & _NO_ADJECTIVES
+        plain = plain and (words[at] not in lexicon.COPULAS or not all(map(is_modifier, said)))
+        if plain and (tokens[end].mark or words[end] in FINITE | {"and", "but"} or link_at(tokens, end)):
+            start -= words[start - 1] in ("that", "which")
+            goes_on = words[end] in ("and", "but") and words[end + 1] in FINITE
+            return [*tokens[:start], *tokens[end + goes_on :]], [(tokens[start], tokens[end - 1])]
+    return None
+
+
+def _tells(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether something else is named or said at token `at` than what a thing is like."""
+    word = tokens[at].text
+    named = word in lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.PRONOUNS | FINITE or bool(link_at(tokens, at))
+    return named or nouns.match([word]) is not None or base_verb(word) == word
+
+
+def _in_a_bunch(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "five cups in a tight cluster on a tray" as "five cups on a tray"; of "a cluster of figs" nothing is in."""
+    for at in range(1, len(words) - 2):
+        end = next((n for n in range(at + 2, min(at + 5, len(words) - 1)) if words[n] in _BUNCHES), 0)
+        plain = end and words[at] in ("in", "into") and words[at + 1] in ("a", "one") and words[end + 1] != "of"
+        if plain and not any(nouns.match([word]) or link_at(tokens, at + 2) for word in words[at + 2 : end]):
+            return [*tokens[:at], *tokens[end + 1 :]], [(tokens[at], tokens[end])]
+    return None
 
 
 def _trait(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -101,14 +157,13 @@ def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
     return ([*tokens[:at], tokens[-1]], [(tokens[at], tokens[-2])]) if plain and few else None
 
 
-def _said_so(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "two cups in random places on a tray" as "two cups on a tray"."""
-    for at in range(2, len(words) - 1):
-        size = next((len(said) for said in _SAID_SO if tuple(words[at : at + len(said)]) == said), 0)
-        after = tokens[at + size] if size else tokens[at]
-        if size and (after.mark or link_at(tokens, at + size) or after.text == "and"):
-            start = at - (words[at - 1] == "," and words[at + size] in (",", "."))
-            return [*tokens[:start], *tokens[at + size :]], [(tokens[at], tokens[at + size - 1])]
+    said = " ".join(words) + " "
+    for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
+        at, end = (said.count(" ", 0, place) for place in found.span())
+        if at and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end)):
+            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
 
 
@@ -144,39 +199,6 @@ def _knocking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told |
         if words[at] == "knock" and words[at + 1] in ("none", "nothing") and words[at + 2] in ("over", "down"):
             end = at + 3 + (words[at + 3] in ("and", ","))
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[at + 2])]
-    return None
-
-
-def _than(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "a lamp taller than either" as "a lamp"."""
-    for at in range(2, len(words) - 2):
-        whole = at + 3 >= len(words) or tokens[at + 3].mark or words[at + 3] in JOINERS
-        if words[at + 1 : at + 3] in (["than", one] for one in ("either", "both", "all")) and whole:
-            return [*tokens[:at], *tokens[at + 3 :]], [(tokens[at], tokens[at + 2])]
-    return None
-
-
-def _state(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "three candles, one lit" as "three candles"."""
-    for at in range(2, len(words) - 2):
-        ends = tokens[at + 2].mark if at + 2 < len(words) else True
-        if words[at - 1] == "," and words[at] in lexicon.NUMBERS and words[at + 1] in lexicon.STATES and ends:
-            return [*tokens[: at - 1], *tokens[at + 2 :]], [(tokens[at], tokens[at + 1])]
-    return None
-
-
-def _grouped(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "place six blocks in two groups of three" as "place six blocks"."""
-    for at in range(2, len(words) - 2):
-        count = at + 1 + (words[at + 1] in lexicon.NUMBERS or words[at + 1].isdecimal())
-        if words[at] not in ("in", "into") or count == at + 1 or words[count] not in ("groups", "clusters"):
-            continue
-        size = number_of(words[count + 2]) if words[count + 1] == "of" else 0
-        end = count + 1 + 2 * bool(size)
-        end += words[end] == "each"
-        after = tokens[min(end, len(tokens) - 1)]
-        if after.mark or after.text in JOINERS | FINITE or link_at(tokens, end):
-            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
 
 
@@ -231,25 +253,6 @@ def _labels(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
     return None
 
 
-def _by_measure(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "line up the cups by height", "in order of decreasing height", as "line up the cups"."""
-    for at in range(2, len(words) - 2):
-        if words[at] == "from" and (ranked := _RANKED.match(" ".join(words[at : at + 12]) + " ")):
-            end = at + len(ranked.group().split())
-            return [*tokens[: at - (words[at - 1] == ",")], *tokens[end:]], [(tokens[at], tokens[end - 1])]
-        after = tokens[at + 2].mark or words[at + 2] == "with" or link_at(tokens, at + 2)
-        if words[at] == "by" and words[at + 1] in _MEASURES and after:
-            return [*tokens[:at], *tokens[at + 2 :]], [(tokens[at], tokens[at + 1])]
-        order = at + 1 + (words[at + 1] in _DIRECTIONS)
-        if words[at] != "in" or words[order] != "order":
-            continue
-        way = 1 + (words[order + 2] in _DIRECTIONS) if words[order + 1] == "of" else 0
-        end = order + 1 + (way + 1 if way and words[order + 1 + way] in _MEASURES else 0)
-        if end > order + 1 or order > at + 1:
-            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
-    return None
-
-
 def _in_that_order(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "on the shelf, in that order, are a vase and a cup" as "... from left to right": from where is not said."""
     for at in range(2, len(words) - 3):
@@ -298,9 +301,8 @@ def _all_but(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     at = next((n for n in range(3, len(words) - 2) if words[n] in ("except", "but")), 0)
     everything = words[0] in _CLEARING and words[1] in _EVERYTHING and words[2] in ("off", "from")
     first = 3 if everything else 1
-    clears = everything or (
-        words[0] in ("clear", "empty", "tidy") and (words[at] == "except" or words[at + 1] == "for")
-    )
+    excepts = words[at] == "except" or words[at : at + 2] == ["but", "for"]
+    clears = everything or (words[0] in ("clear", "empty", "tidy") and excepts)
     if not (at and clears and words[first] in lexicon.DETERMINERS) or at > first + 3:
         return None
     start = at + 1 + (words[at + 1] == "for")

@@ -22,7 +22,6 @@ _NEGATIONS = frozenset({
 _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
 _ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
 """Ordinals after "every"."""
-_FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
 _POSTURES = frozenset({"standing", "lying", "sitting", "resting"})
 _EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
 
@@ -104,7 +103,7 @@ def refuse_negations(tokens: Sequence[Token]) -> None:
             each.text in lexicon.NUMBERS or each.text in lexicon.PRONOUNS or singulars(each.text)
             for each in tokens[at + 2 : at + 6]
         )
-        if token.text in _FRACTIONS and plural and not tokens[at + 1].mark:
+        if token.text in ("most", "majority") and plural and not tokens[at + 1].mark:
             raise PromptError(
                 f'"{token.text}" (word {token.number}): say how many in numbers: "four of the eight blocks are red".'
             )
@@ -121,7 +120,7 @@ def refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
             )
         size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
         end = at + 2 + size
-        inserted = size and words[end] in ("it", "them") and words[end + 1] == ","
+        inserted = size and words[end] == "it" and words[end + 1] == ","
         if inserted and set(words[:at]) & lexicon.HAVING:
             said = text[tokens[at + 2].start : tokens[end].end]
             raise PromptError(

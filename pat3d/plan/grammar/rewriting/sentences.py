@@ -8,7 +8,7 @@ from dataclasses import replace
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.asking import plainly_asked
 from pat3d.plan.grammar.rewriting.beforehand import ones_named, told_before
-from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each
+from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each, with_goals
 from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
 from pat3d.plan.grammar.rewriting.guests import for_guests
@@ -50,8 +50,8 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _contents(_and_no_more(so_that(told_plainly(for_guests(tokens)))), nouns)
-    cut = _cut(tokens, nouns)
+    tokens = _set_apart(_contents(_and_no_more(so_that(told_plainly(for_guests(tokens)))), nouns))
+    cut = with_goals(_cut(tokens, nouns), nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
@@ -117,6 +117,19 @@ def _and_no_more(tokens: Sequence[Token]) -> list[Token]:
             start = at - (words[at - 1] in ("and", "with"))
             start -= tokens[start - 1].mark
             return _and_no_more([*tokens[:start], *tokens[end:]])
+    return list(tokens)
+
+
+def _set_apart(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a wall with two shelves and, below them, a bench" as "... Below them there is a bench"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 5):
+        end = at + 2 + link_at(tokens, at + 2)
+        inserted = words[at : at + 2] == ["and", ","] and end > at + 2 and words[end : end + 2] == ["them", ","]
+        if inserted and lexicon.HAVING & {*words[:at]}:
+            there = [replace(tokens[end + 1], text=word, mark=False) for word in ("there", "is")]
+            stop = replace(tokens[at + 1], text=".")
+            return [*tokens[:at], stop, *tokens[at + 2 : end + 1], *there, *tokens[end + 2 :]]
     return list(tokens)
 
 

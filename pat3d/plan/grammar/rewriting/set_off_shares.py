@@ -27,7 +27,7 @@ Share = tuple[int, list[Token]]
 
 def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "three cups (one red, two blue) and a pen" as "one red cup, two blue cups and a pen"."""
-    made = _both_of_them(_in_numbers(_of_them(list(tokens), nouns)))
+    made = _both_of_them(_of_them(list(tokens), nouns))
     at = 1
     while at < len(made) - 4:
         told = _told(text, made, at, nouns)
@@ -49,7 +49,8 @@ def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         number = at + 1 if which == at + 2 else at + 3
         verb = at + 4
         plain = which and numeral(words[number]) and words[verb] in lexicon.COPULAS and not link_at(tokens, verb + 1)
-        if not plain or words[verb + 2 : verb + 4] != [",", "and"] or nouns.match([words[at - 1]]) is None:
+        rest = tuple(words[verb + 4 : verb + 6]) in _REST
+        if rest or not plain or words[verb + 2 : verb + 4] != [",", "and"] or nouns.match([words[at - 1]]) is None:
             continue
         end = next((n for n in range(verb + 4, len(words)) if words[n] == "."), len(words))
         stop = replace(tokens[verb + 2], text=".", mark=True)
@@ -74,23 +75,6 @@ def _of_them(tokens: list[Token], nouns: Nouns) -> list[Token]:
         behind = tokens[at + 2 :] if words[at + 2] == "." or first + name < start - 1 else tokens[at + 3 :]
         number = replace(tokens[at - 1], start=tokens[first].start, end=tokens[first].start)
         return [*tokens[:first], number, *tokens[first : start - 1], *behind]
-    return tokens
-
-
-def _in_numbers(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "eight cups, half of which are red" as "eight cups, 4 of which are red"; so of a third."""
-    words = [token.text for token in tokens]
-    for at in range(3, len(words) - 2):
-        third = words[at - 1 : at + 1] == ["a", "third"]
-        if not (third or words[at] == "half") or words[at - 1 - third] not in (",", ":"):
-            continue
-        of = words[at + 1 : at + 3] in (["of", "which"], ["of", "them"])
-        opened = words[:2] == ["of", "the"] and words[at + 1] in lexicon.COPULAS
-        total = next((number for n in range(at - 1, -1, -1) if (number := numeral(words[n])) > 1), 0)
-        parts = 3 if third else 2
-        if (of or opened) and total and total % parts == 0 and total > parts:
-            number = replace(tokens[at], text=str(total // parts), start=tokens[at - third].start)
-            return _in_numbers([*tokens[: at - third], number, *tokens[at + 1 :]])
     return tokens
 
 

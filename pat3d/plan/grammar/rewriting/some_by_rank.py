@@ -120,9 +120,8 @@ def _another_few(tokens: list[Token], at: int, nouns: Nouns) -> tuple[list[Token
 def _one_by_rank(tokens: list[Token], at: int, nouns: Nouns) -> tuple[list[Token], int] | None:
     """`tokens` with "the first contains nuts" as "the first bowl contains nuts": what it holds has no determiner."""
     words = [token.text for token in tokens]
-    ranked = (
-        words[at] == "the" and words[at + 1] in (*ORDINALS, "last") and (tokens[at - 1].mark or words[at - 1] == "and")
-    )
+    ranked = words[at] == "the" and words[at + 1] in (*ORDINALS, "last")
+    ranked = ranked and (tokens[at - 1].mark or words[at - 1] == "and")
     holds = ranked and words[at + 2] in HOLDING.values()
     thing = nouns.match(words[at + 2 + holds : at + 3 + holds]) if ranked else None
     bare = thing is not None and (thing.plural or words[at + 2 + holds] in lexicon.SUBSTANCES)

@@ -42,7 +42,7 @@ _MARKED = frozenset({"line", "trail", "path", "goal", "zone", "spot", "mark", "l
 """Qualities that are places too."""
 _LOOSE = frozenset({"away", "again", "altogether", "sideways", "outwards", "inwards", "outward", "inward", "upwards",
     "downwards", "aside", "maybe", "perhaps", "somehow", "everywhere", "nowadays", "anew", "meanwhile", "indoors",
-    "outdoors", "here", "overall", "backwards", "forwards"})  # fmt: skip
+    "outdoors", "here", "overall", "apart", "backwards", "forwards"})  # fmt: skip
 """Adverbs that place nothing."""
 _GOING = frozenset({"fall", "drop", "roll", "fly", "go", "run", "jump", "slide", "spill", "leave", "make", "form",
     "build",
@@ -330,12 +330,8 @@ class Tails(Remarks):
         forms = (word, *singulars(word))
         if any(form in lexicon.GENERICS for form in forms):
             return False
-        inner = (
-            at + 1 < end
-            and word not in JOINERS
-            and not self._tokens[at + 1].mark
-            and (at + 1 in self._named or self._noun(at + 1))
-        )
+        inner = at + 1 < end and word not in JOINERS and not self._tokens[at + 1].mark
+        inner = inner and (at + 1 in self._named or self._noun(at + 1))
         if is_colour_word(word) and not inner and not abstract:
             # "Red at the bottom, then blue": of one of them each.
             return False

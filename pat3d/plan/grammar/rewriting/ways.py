@@ -1,4 +1,4 @@
-"""How often, until when and in which way something is done or stands: "twice", "until it clicks", "parallel to"."""
+"""In which way something is done or stands: "start by moving", "parallel to", "jumps off"."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.denials import Told
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.boundaries import JOINERS
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.unmade import base_verb
@@ -34,28 +33,6 @@ def begun(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | Non
         return None
     doing = replace(tokens[by + 1], text=verb, number=tokens[at].number)
     return [*tokens[:at], doing, *tokens[by + 2 :]], []
-
-
-def often(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "press the button twice", "flip it two times", without how often."""
-    for at in range(2, len(words) - 1):
-        times = words[at + 1] == "times" and (numeral(words[at]) > 1 or words[at] in lexicon.VAGUE)
-        end = at + 1 + times
-        again = times or words[at] in ("twice", "thrice")
-        after = tokens[min(end, len(tokens) - 1)]
-        if again and (after.mark or after.text in ("and", "then", "in", "with")) and words[at - 1] not in JOINERS:
-            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
-    return None
-
-
-def until(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "push the box until it reaches the edge" without until when."""
-    for at in range(2, len(words) - 2):
-        if words[at] in ("until", "till") and words[at + 1] not in ("then", "now"):
-            end = next(n for n in range(at, len(words)) if tokens[n].mark)
-            start = at - (words[at - 1] == ",")
-            return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[end - 1])]
-    return None
 
 
 def parallel(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -22,7 +22,7 @@ STACK_HEIGHT = 4
 FILLING = 8
 """Objects placed for "mugs", in "a stack of books", and for "filled with balls"."""
 
-PALETTE_COUNT = {"rainbow": 6}
+PALETTE_COUNT = {"rainbow": 6, "warm": 3, "cool": 3}
 COLOURFUL_COUNT = 4
 """Objects placed for "rainbow macarons" and for any other word of many colours, when the prompt gives no number."""
 

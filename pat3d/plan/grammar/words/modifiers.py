@@ -25,8 +25,11 @@ _FEATURES = frozenset({"eyed", "haired", "cheeked", "nosed", "bearded", "eared",
 _MANY = frozenset(
     {"different", "differently", "multi", "various", "brightly", "bright", "assorted", "mixed", "vibrant"}
 )
+TONES = {"warm": ("red", "orange", "yellow"), "cool": ("blue", "green", "purple")}
+"""The colours of what is "warm-coloured"."""
 COLOURED = "coloured"
-"""The palette of "coloured", which one thing has one colour of that is not said."""
+ONE_OF = frozenset({COLOURED, *TONES})
+"""The palettes of "coloured" and "warm-coloured", which one thing has one colour of that is not said."""
 _MIXED = {**MIXED, COLOURED: MIXED["colorful"], "multicoloured": MIXED["multicolored"],
           "multi-colored": MIXED["multicolored"], "multi-coloured": MIXED["multicolored"],
           "rainbow-colored": MIXED["rainbow"]}  # fmt: skip
@@ -112,6 +115,8 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = (), head: str =
             if before in _UNNAMED:
                 # "light-colored": of what colour is not said.
                 adjectives.append(f"{before}-{word}")
+            elif before in TONES:
+                palette_word = before
             elif not find_colour(before) and not palette_word:
                 palette_word = "colorful" if before in _MANY or before.endswith("ly") else COLOURED
         elif word in _MIXED:
@@ -144,8 +149,8 @@ def read_modifiers(words: Sequence[str], hidden: Sequence[str] = (), head: str =
         elif (colour := find_colour(word)) and not colours:
             colours.append(colour)
     return Modifiers(
-        colours=tuple(dict.fromkeys(colours)), palette=_MIXED.get(palette_word, ()), palette_word=palette_word,
-        material=material, material_word=material_word, scale=min(max(scale, 0.1), 10.0), size_word=size_word,
+        colours=tuple(dict.fromkeys(colours)), palette=(_MIXED | TONES).get(palette_word, ()), material=material,
+        palette_word=palette_word, material_word=material_word, scale=min(max(scale, 0.1), 10.0), size_word=size_word,
         adjectives=tuple(adjectives), stacked=stacked, measures=measures, postures=postures,
     )  # fmt: skip
 
