@@ -275,8 +275,9 @@ class PhraseReader:
                 # "the stand mixer head"
                 return replace(base, kind="object", noun=whole.noun, said=whole.said, part=head)
             return replace(base, kind="part", said=singular[-1])
-        mark = self._definite and head == "square" and self._text.lower().count(head) == 1  # on which things are put
-        if all(is_modifier(word) for word in words) and not (mark or (words in _STUFF and not (count or self._definite))):
+        mark = (head, self._text.lower().count(head)) == ("square", 1)
+        stuff = mark if self._definite else words in _STUFF and count is None
+        if all(is_modifier(word) for word in words) and not stuff:
             return replace(base, kind="pieces", modifiers=read_modifiers(words))
         return base
 

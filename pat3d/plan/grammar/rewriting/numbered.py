@@ -19,7 +19,7 @@ _FORMS = frozenset({"structure", "formation", "wall", "square", "space", "spaces
 
 
 def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` of the prompt `text` with "bin 1 and bin 2", or "the 1 bin and the 2 bin", as "the first and second bin".
+    """`tokens` of the prompt `text` with "bin 1 and bin 2", or "the 1 bin", as "the first bin and the second bin".
 
     A number before its name stays as "number-4" there, which nothing shows.
     """

@@ -47,7 +47,8 @@ def requested(sentence: list[Token], alone: bool, nouns: Nouns) -> list[Token]:
     wish = next((said for said in _WISHES if tuple(words[opening : opening + len(said)]) == said), ())
     start = opening + len(wish)
     named = sentence[start:end]
-    if wish and len(named) > 2 and (state := named[-1].text) in SWITCHED.keys() | {"on", "off"} and words[start] in _LEADS:
+    state = named[-1].text if wish and len(named) > 2 and words[start] in _LEADS else ""
+    if state in SWITCHED or state in ("on", "off"):
         # "I want the microwave open", "I'd like the lamp to be off"
         named = named[:-3] if words[end - 3 : end - 1] == ["to", "be"] else named[:-1]
         last = replace(named[-1], end=sentence[end - 1].end) if state in SWITCHED else named[-1]

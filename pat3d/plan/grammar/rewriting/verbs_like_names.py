@@ -1,7 +1,7 @@
-"""Verbs that are names as well, as other verbs: of "so that you can reach it" and "throw the wrapper away" no can is made.
+"""Verbs that are names as well, as other verbs: of "so that you can reach it" no can is made.
 
-A name has an article, a number or a word of kind before it, or stands where only a thing does: "the can you see", "can on
-a tray".
+A name has an article, a number or a word of kind before it, or stands where only a thing does: "the can you see",
+"can on a tray".
 """
 
 from __future__ import annotations
