@@ -43,8 +43,8 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     rewritings: tuple[Rewriting, ...] = (
         without_names_of_verbs, partial(ordinals, text), compounds, partial(each_at_its_place, text),
         partial(out_of_brackets, text), asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours,
-        of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried, by_rank, at_row_ends, of_unlike_rows,
-        levels_of,
+        of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried,
+        by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:
