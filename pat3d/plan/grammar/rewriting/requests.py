@@ -16,8 +16,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _GIVE = (("give", "me"), ("give", "us"))
 _WISHES = (*_GIVE, *(tuple(said.split()) for said in (
-    "i need", "we need", "i want", "i'd like", "i would like", "we'd like", "could i have", "can i have", "may i have",
-    "can i get", "could i get", "i'll take",
+    "i need", "we need", "i want", "we want", "i'd like", "i would like", "we'd like", "could i have", "may i have",
+    "could i get", "i'll take",
 )))  # fmt: skip
 _BRINGING = frozenset({"bring", "carry", "get", "fetch", "take"})
 _HERE = (("over", "here"), ("here",), ("over", "to", "me"), ("to", "me"), ("to", "us"))

@@ -17,7 +17,7 @@ from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import is_number
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_OTHERWISE = {"can": "could", "throw": "toss", "swing": "turn", "matches": "fits"}
+_OTHERWISE = {"can": "could", "throw": "toss", "swing": "turn", "mop": "wash", "matches": "fits"}
 _DOERS = frozenset({"i", "you", "we", "they", "he", "she", "it", "everyone", "someone", "anyone", "somebody"})
 _ASKING = frozenset({"what", "where", "how", "who", "which", "that", "there"})
 _BEING = frozenset({"be", "not", "also", "only", "still", "never", "easily", "then"})

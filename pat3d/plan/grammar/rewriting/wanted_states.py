@@ -95,7 +95,8 @@ def _left_there(tokens: list[Token], told: Sequence[list[Token]]) -> list[Token]
         return []
     earlier = " ".join(_said(each) for each in told[: told.index(tokens)])
     known = f" {' '.join(words[verb + 2 : at])} " in f" {earlier}" or _EMPTIED & {*earlier.split()}
-    if known or words[at] in ("to", "onto", "into") or {"and", "then", ",", "it", "them"} & {*words}:
+    moved = words[at] in ("to", "onto", "into") and link_at(tokens, at) == 1
+    if known or moved or {"and", "then", ",", "it", "them"} & {*words}:
         return []
     is_ = replace(tokens[at], text="are" if singulars(words[at - 1]) else "is")
     return [*tokens[verb + 1 : at], is_, *tokens[at:]]

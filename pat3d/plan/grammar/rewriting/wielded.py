@@ -52,14 +52,14 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         end = next(
             (n for n in range(leads, len(words)) if body[n].mark or words[n] == "and" or link_at(body, n)), len(words)
         )
-        found = _named(words[leads:end], nouns)
+        found = noun_of(words[leads:end], nouns)
         behind = words[end : end + 1]
         ends = not behind or behind[0] in ("to", "into", "onto", "towards", "toward", "and", "from", "off")
         if words[at] == "using" and words[end - 1] in lexicon.GENERICS:
             return at, end
         if found is None or found.plural or not ends:
             continue
-        owner = _named(words[:at], nouns)
+        owner = noun_of(words[:at], nouns)
         carried = owner is not None and any(nouns.of_class(owner.noun, each) for each in (lexicon.HOLLOW, _CARRYING))
         picked = verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING if carried else (*_GRIPPING, *_CUTLERY))
         taken = (
@@ -82,10 +82,10 @@ def done_with(tokens: Sequence[Token], nouns: Nouns) -> bool:
     words = [token.text for token in tokens]
     end = next((n for n in range(len(words)) if tokens[n].mark or words[n] in ("and", "then")), len(words))
     at = next((n for n in range(2, end - 1) if words[n] in ("with", "using")), 0)
-    found = _named(words[at + 1 : end], nouns) if at and words[0] in _DONE_WITH else None
+    found = noun_of(words[at + 1 : end], nouns) if at and words[0] in _DONE_WITH else None
     return found is not None and nouns.of_class(found.noun, _DONE_WITH[words[0]])
 
 
-def _named(words: Sequence[str], nouns: Nouns) -> Match | None:
+def noun_of(words: Sequence[str], nouns: Nouns) -> Match | None:
     """The noun that ends `words`."""
     return next((one for n in range(max(len(words) - 3, 0), len(words)) if (one := nouns.match(words[n:]))), None)
