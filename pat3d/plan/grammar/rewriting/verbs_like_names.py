@@ -48,7 +48,8 @@ def _acts(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
         if link_at(tokens, at - 1 - (owner != before)) or known_verb(owner) or owner in _AWAY | {"up", "down"}:
             return False
         does = tokens[at + 1].text.isalpha() and not link_at(tokens, at + 1) and nouns.match([follower]) is None
-        return before in _DOERS or (does and before in _ASKING) or follower in _BEING or known_verb(follower)
+        does = (does and before in _ASKING) or follower in _BEING or known_verb(follower)
+        return does or (before in _DOERS and tokens[at - 2].text != "if")
     if word == "matches":
         return before not in _JOINING and not link_at(tokens, at - 1) and (known or follower in ("up", "with"))
     if before not in _JOINING | _DOERS | lexicon.MODALS | {"to"}:
