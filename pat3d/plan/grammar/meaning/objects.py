@@ -228,7 +228,7 @@ class Maker:
         """Whether `word` is none that names things, so that the sentence was not understood."""
         tables = (lexicon.VERBS, lexicon.PARTICIPLES, lexicon.ADVERBS, lexicon.DIRECTIONS, lexicon.POSITIONS,
                   lexicon.COPULAS, lexicon.MEALS, lexicon.STATES, lexicon.SAID_OTHERWISE, lexicon.LEVELS,
-                  _NO_THINGS)  # fmt: skip
+                  lexicon.MODALS, _NO_THINGS)  # fmt: skip
         participle = word.endswith(("ed", "ing")) and len(word) > 5 and word not in lexicon.NOT_VERBS
         return any(word in table for table in tables) or participle or len(word) == 1 or is_no_noun(word)
 

@@ -118,7 +118,7 @@ def _unpictured(tokens: Sequence[Token], before: set[str], nouns: Nouns) -> list
     words = [token.text for token in tokens]
     if len(words) > 5 and words[0] == "in" and words[1] in _SHOWN and words[2] in _PICTURES - before:
         at = 3 + (words[3] in (",", ":"))
-        end = at + 1 + (words[at + 1] == "can")
+        end = at + 1 + (words[at + 1] == "could")
         if words[at] in _SEERS and words[end] in ("see", "find"):
             return [replace(tokens[end], text="there"), replace(tokens[end], text="is"), *tokens[end + 1 :]]
         if words[3] in ("is", "are") and _begins(words[4], nouns):

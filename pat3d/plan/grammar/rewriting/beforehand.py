@@ -11,11 +11,11 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.errands import FILLING
 from pat3d.plan.grammar.rewriting.instructions import VERBS
-from pat3d.plan.grammar.rewriting.wielded import wielded
+from pat3d.plan.grammar.rewriting.wielded import noun_of, wielded
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.vocabulary import Match, Nouns
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _OPENING = frozenset({"and", "then", ",", "please"})
 _LEADS = lexicon.DEFINITE | lexicon.POSSESSIVES
@@ -93,11 +93,6 @@ def _slid(sentence: list[Token]) -> list[list[Token]]:
     return [there, [*sentence[:on], *sentence[end:]]]
 
 
-def _name(words: Sequence[str], end: int, nouns: Nouns) -> Match | None:
-    """The noun that ends before word `end`."""
-    return next((found for n in (3, 2, 1) if n <= end and (found := nouns.match(words[end - n : end]))), None)
-
-
 def _told(subject: Sequence[Token], place: Sequence[Token], *, many: bool) -> list[Token]:
     """The sentence that `subject` is at `place`."""
     verb = replace(place[0], text="are" if many else "is")
@@ -121,7 +116,7 @@ def _carrying(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
         if not end or (words[at] in FILLING and words[end] not in ("to", "into", "onto")):
             # "Fill the bowl with the figs on the mat": no bowl with figs is there.
             continue
-        owner, thing = _name(words, had, nouns), _name(words[had + 1 :], end - had - 1, nouns)
+        owner, thing = noun_of(words[:had], nouns), noun_of(words[had + 1 : end], nouns)
         told = 2 * (words[end : end + 2] in _IN_IT)
         stays = sentence[end + told].mark or words[end + told] in _OTHERWISE or words[end - 1] in lexicon.DETACHED
         if owner is None or thing is None or stays or wielded(sentence[at + 1 : -1], words[at], (), nouns)[1]:
@@ -149,7 +144,7 @@ def _exchanged(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     made = list[list[Token]]()
     things = sentence[please + 1 : between], sentence[between + 1 : end]
     cuts = [next((n for n in range(len(each)) if link_at(each, n)), 0) for each in things]
-    names = [_name([token.text for token in each], cut, nouns) for each, cut in zip(things, cuts, strict=True)]
+    names = [noun_of([token.text for token in each[:cut]], nouns) for each, cut in zip(things, cuts, strict=True)]
     one = things[1][cuts[1] - 1].text == "one"
     if not all(cuts) or names[0] is None or (names[1] is None and not one):
         return []
@@ -169,7 +164,7 @@ def _around(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     ends = (n for n in range(at, len(words)) if sentence[n].mark or words[n] in ("and", "then"))
     end = next(n for n in ends if words[n] != "and" or words[n + 1] not in _LEADS)
     first = next((n for n in range(1, at) if words[n] in _LEADS), 0)
-    top, mark = (_name(words, n, nouns) for n in (at, end))
+    top, mark = (noun_of(words[:n], nouns) for n in (at, end))
     if not first or words[0] not in _CLEANING or top is None or mark is None or words[at + 1] not in _LEADS:
         return []
     if not nouns.of_class(top.noun, lexicon.LEVEL) or nouns.of_class(mark.noun, lexicon.FLOOR):

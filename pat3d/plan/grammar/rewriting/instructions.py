@@ -16,7 +16,7 @@ from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens
 from pat3d.plan.grammar.rewriting.errands import errands, left_alone
 from pat3d.plan.grammar.rewriting.fronted import forbidden, in_order
 from pat3d.plan.grammar.rewriting.outcomes import end_state
-from pat3d.plan.grammar.rewriting.wielded import wielded
+from pat3d.plan.grammar.rewriting.wielded import done_with, wielded
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -195,7 +195,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             # "Push the ball with the bat": the bat lies by itself.
             tool = Clause(tokens=(*body[with_it + 1 : after], stop), first=not made)
             # "Get it out with the stick and drop it in the box": what is dropped was named before.
-            (tools if body[0].text in ("it", "them") else made).append(tool)
+            bare = body[with_it + 1].text not in lexicon.DETERMINERS | lexicon.POSSESSIVES
+            (tools if bare or body[0].text in ("it", "them") else made).append(tool)
             aside = (*aside, text[body[with_it].start : body[after - 1].end])
             body = [*body[: with_it - (body[with_it - 1].text in _PARTICLES)], *body[after:]]
         later = next((at for begin, at in starts if begin == end), 0)
@@ -301,7 +302,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     if at + 1 >= len(tokens):
         return None
     follows = tokens[at + 1].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"}
-    if word in FASTENING and fastens(tokens, at):
+    if (word in FASTENING and fastens(tokens, at)) or (opening and done_with(tokens[at:], nouns)):
         return at
     if base not in VERBS:
         # A verb of which no task is known: "Trade the places of the cups".

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.english import NUMBERED, NUMBERED_BARE
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -13,41 +14,72 @@ from pat3d.plan.grammar.words.number_words import ORDINALS
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 LABELLED = frozenset({"labelled", "labeled", "marked", "lettered", "numbered", "named", "called"})
+_MOVING = frozenset({"move", "slide", "push", "take", "place", "put", "stack", "lift", "grab", "pick", "up", "and"})
+_FORMS = frozenset({"structure", "formation", "wall", "square", "space", "spaces", "high", "wide", "long", "tall"})
 
 
 def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` of the prompt `text` with "bin 1 and bin 2" as "the first bin and the second bin"."""
+    """`tokens` of the prompt `text` with "bin 1 and bin 2", or "the 1 bin", as "the first bin and the second bin".
+
+    A number before its name stays as "number-4" there, which nothing shows.
+    """
     labels: dict[str, dict[str, None]] = {}
-    found: dict[int, tuple[int, str]] = {}
+    found: dict[int, tuple[Sequence[Token], Token, int]] = {}
+    """Behind the first token of each: the name, its label, and where both end."""
     for at in range(1, len(tokens) - 1):
-        label = _label(text, tokens, at)
-        words = [token.text for token in tokens[:at]]
-        size = next((n for n in (3, 2, 1) if n <= at and (match := nouns.match(words[-n:])) and not match.plural), 0)
-        if label and size:
-            name = " ".join(words[-size:])
-            labels.setdefault(name, {})[label] = None
-            found[at] = size, name
+        begin = at - (tokens[at - 1].text == "number")
+        words = [token.text for token in tokens[:begin]]
+        size = next((n for n in (3, 2, 1) if n <= begin and (match := nouns.match(words[-n:])) and not match.plural), 0)
+        if size and _label(text, tokens, at):
+            found[begin - size] = tokens[begin - size : begin], tokens[at], at + 1
+        elif size := _size_of_numbered(tokens, begin, at, nouns):
+            found[begin] = tokens[at + 1 : at + 1 + size], tokens[at], at + 1 + size
+    for named, label, _ in found.values():
+        labels.setdefault(_name(named), {})[label.text] = None
     for at, token in enumerate(tokens):
         several = nouns.match([tokens[at - 1].text]) if at and token.text in LABELLED else None
         if several is not None and several.plural:
             listed = [each.text for each in tokens[at + 1 : labels_end(tokens, at)] if each.text not in (",", "and")]
             for name in singulars(tokens[at - 1].text) if listed == sorted(listed) else ():
                 labels.setdefault(name, {}).update(dict.fromkeys(listed))
-    told = {name: sorted(each) for name, each in labels.items() if 2 <= len(each) <= len(ORDINALS)}
+    told = {name: sorted(each, key=lambda label: (len(label), label)) for name, each in labels.items()}
     made: list[Token] = []
-    for at, token in enumerate(tokens):
-        if at not in found or found[at][1] not in told:
-            made.append(token)
+    at = 0
+    while at < len(tokens):
+        named, label, end = found.get(at, ((), tokens[at], at + 1))
+        ranks = told.get(_name(named), []) if named else []
+        several, leads = 2 <= len(ranks) <= len(ORDINALS), bool(named) and label.start < named[0].start
+        if not (several or leads):
+            made.append(tokens[at])
+            at += 1
             continue
-        size, name = found[at]
-        named = [replace(each, end=token.end) for each in made[-size:]]
-        ordinal = replace(named[0], text=ORDINALS[told[name].index(token.text)])
-        before = made[:-size]
-        article = [] if before and before[-1].text in lexicon.DETERMINERS else [replace(ordinal, text="the")]
-        if before and before[-1].text in ("a", "an"):
-            before, article = before[:-1], [replace(ordinal, text="the")]
-        made = [*before, *article, ordinal, *named]
+        named = [replace(each, end=max(each.end, label.end)) for each in named]
+        first = replace(label if leads else named[0], number=named[0].number)
+        number = [replace(first, text=f"number-{label.text}")] if leads else []
+        which = [replace(first, text=ORDINALS[ranks.index(label.text)])] if several else []
+        if made and made[-1].text in ("a", "an"):
+            made.pop()
+        article = [] if made and made[-1].text in lexicon.DETERMINERS else [replace(first, text="the")]
+        made += [*article, *which, *number, *named]
+        at = end
     return made
+
+
+def _name(named: Sequence[Token]) -> str:
+    return " ".join(token.text for token in named)
+
+
+def _size_of_numbered(tokens: Sequence[Token], begin: int, at: int, nouns: Nouns) -> int:
+    """The words of the name behind the number at token `at` of "the 4 block", from `begin` on; 0 where it counts."""
+    words = [token.text for token in tokens]
+    before = words[begin - 1] if begin else "."
+    size = next((n for n in (2, 1) if (match := nouns.match(words[at + 1 : at + 1 + n])) and not match.plural), 0)
+    after = words[at + 1 + size : at + 2 + size]
+    more = {*after} & (lexicon.STACK_NOUNS | lexicon.ROWS | lexicon.COLLECTIVES | _FORMS) or nouns.match(after)
+    if not size or more or words[at + size] not in NUMBERED or not (words[at].isdecimal() and len(words[at]) < 3):
+        return 0
+    bare = begin > 0 and words[at] != "1" and (link_at(tokens, begin - 1) > 0 or before in _MOVING)
+    return size if before in lexicon.DEFINITE or begin < at or (bare and words[at + size] in NUMBERED_BARE) else 0
 
 
 def labels_end(tokens: Sequence[Token], at: int) -> int:

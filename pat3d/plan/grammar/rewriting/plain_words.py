@@ -28,6 +28,7 @@ from pat3d.plan.grammar.rewriting.terse import in_full
 from pat3d.plan.grammar.rewriting.tiers import levels_of
 from pat3d.plan.grammar.rewriting.told_by_rank import by_rank
 from pat3d.plan.grammar.rewriting.unlike_rows import of_unlike_rows
+from pat3d.plan.grammar.rewriting.verbs_like_names import without_names_of_verbs
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -41,7 +42,8 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     things is meant is told last.
     """
     rewritings: tuple[Rewriting, ...] = (
-        partial(ordinals, text), compounds, members_set_off, partial(each_at_its_place, text),
+        without_names_of_verbs, partial(ordinals, text), compounds, members_set_off,
+        partial(each_at_its_place, text),
         partial(out_of_brackets, text), asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours,
         of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried,
         by_rank, at_row_ends, of_unlike_rows, levels_of,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.wanted_states import SWITCHED
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -15,8 +16,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _GIVE = (("give", "me"), ("give", "us"))
 _WISHES = (*_GIVE, *(tuple(said.split()) for said in (
-    "i need", "we need", "i want", "i'd like", "i would like", "we'd like", "could i have", "can i have", "may i have",
-    "can i get", "could i get", "i'll take",
+    "i need", "we need", "i want", "we want", "i'd like", "i would like", "we'd like", "could i have", "may i have",
+    "could i get", "i'll take",
 )))  # fmt: skip
 _BRINGING = frozenset({"bring", "carry", "get", "fetch", "take"})
 _HERE = (("over", "here"), ("here",), ("over", "to", "me"), ("to", "me"), ("to", "us"))
@@ -25,6 +26,7 @@ _IN_HAND = frozenset({"shake", "hold", "wave", "tilt", "tip", "squeeze", "pour",
 """Deeds over something, by which nothing comes to stand on it."""
 _POURED = frozenset({"pour", "sprinkle", "crack", "grate"})
 """Those by which something comes into what is named, and is not in it before."""
+_LEADS = lexicon.DEFINITE | lexicon.POSSESSIVES
 _OPENING = frozenset({"and", "then", ",", "please", "."})
 _WITHIN = frozenset({"of", "with", "from", "off", "out"})
 """Words that tell which thing is meant, or where it is taken from."""
@@ -45,12 +47,19 @@ def requested(sentence: list[Token], alone: bool, nouns: Nouns) -> list[Token]:
     wish = next((said for said in _WISHES if tuple(words[opening : opening + len(said)]) == said), ())
     start = opening + len(wish)
     named = sentence[start:end]
+    state = named[-1].text if wish and len(named) > 2 and words[start] in _LEADS else ""
+    if state in SWITCHED or state in ("on", "off"):
+        # "I want the microwave open", "I'd like the lamp to be off"
+        named = named[:-3] if words[end - 3 : end - 1] == ["to", "be"] else named[:-1]
+        last = replace(named[-1], end=sentence[end - 1].end) if state in SWITCHED else named[-1]
+        rest = sentence[end - 1 + (state in SWITCHED) :]
+        return [replace(sentence[0], text=SWITCHED.get(state, "turn")), *named[:-1], last, *rest]
     linked = {n + k for n in range(len(named)) for k in range(link_at(named, n) if named[n].text != "to" else 0)}
     other = (token.mark or token.text in ("to", "and", "or") for n, token in enumerate(named) if n not in linked)
     if not wish or len(named) < 2 or any(other):
         return sentence
     links = {named[n].text for n in linked if n < len(named)} - _WITHIN
-    definite = words[start] in lexicon.DEFINITE | lexicon.POSSESSIVES
+    definite = words[start] in _LEADS
     if definite and (wish in _GIVE or not links or lexicon.RELATIVES & {*words[start + 1 : end]}):
         return _fetch(sentence, sentence[start:-1] if words[end : end + 2] == [",", "not"] else named)
     # "Give me a spoon"; a table is a scene.

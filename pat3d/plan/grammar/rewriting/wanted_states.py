@@ -58,7 +58,10 @@ _STATES = [[word] for word in (*_BEING, "end")]
 _VERBS = _BEING | lexicon.MODALS | {"ends", "end", "has", "have", "needs", "need", "ought"}
 _PLACES = frozenset({"left", "right", "front", "back", "middle", "center", "centre", "corner", "edge", "side", "end"})
 """Places on what carries a thing."""
-_SWITCHED = {"open": "open", "closed": "close", "shut": "shut"}
+SWITCHED = {"open": "open", "closed": "close", "shut": "shut"}
+_KEEPING = frozenset({"leave", "keep"})
+_EMPTIED = frozenset({"unload", "empty", "clear", "unpack", "everything", "all"})
+"""What the things are in that are left elsewhere."""
 _LEADS = lexicon.DEFINITE | lexicon.POSSESSIVES | {"it", "they"}
 _MADE_UP = lexicon.NUMBERS.keys() | {"a", "an", "some"}
 _SCENES = frozenset({"scene", "scenario", "image", "picture", "setup", "create", "generate"})
@@ -71,9 +74,32 @@ def brought_about(told: list[list[Token]]) -> list[list[Token]]:
     made: list[list[Token]] = []
     for sentence in told:
         before = {token.text for each in made for token in each}
+        if stays := _left_there(sentence, told):
+            made.append(stays)
+            continue
         done = _ends_up(_in_the_end(_later(_alone(sentence))))
         made.append(sure(done if describes else _moved(done, before)))
     return made
+
+
+def _left_there(tokens: list[Token], told: Sequence[list[Token]]) -> list[Token]:
+    """Read "leave the phone on the desk" as "the phone is on the desk" where another of `told` is to be done.
+
+    What was spoken of before comes to be there: "wash the cup. Leave the cup on the tray."
+    """
+    words = [token.text for token in tokens]
+    verb = int(words[0] == "please")
+    at = next((n for n in range(verb + 3, len(words) - 2) if link_at(tokens, n) and words[n] != "of"), 0)
+    other = any(known_verb(each[0].text) and each[0].text not in _KEEPING for each in told)
+    if words[verb] not in _KEEPING or words[verb + 1] not in _LEADS or not at or not other:
+        return []
+    earlier = " ".join(_said(each) for each in told[: told.index(tokens)])
+    known = f" {' '.join(words[verb + 2 : at])} " in f" {earlier}" or _EMPTIED & {*earlier.split()}
+    moved = words[at] in ("to", "onto", "into") and link_at(tokens, at) == 1
+    if known or moved or {"and", "then", ",", "it", "them"} & {*words}:
+        return []
+    is_ = replace(tokens[at], text="are" if singulars(words[at - 1]) else "is")
+    return [*tokens[verb + 1 : at], is_, *tokens[at:]]
 
 
 def _makes_up(told: Sequence[Sequence[Token]]) -> bool:
@@ -273,8 +299,8 @@ def _verb(rest: Sequence[Token]) -> tuple[str, int] | None:
     base = base_verb(word) if word.endswith(("ed", "put", "hung", "set")) else None
     if base is not None and known_verb(base):
         return base, 1
-    if word in _SWITCHED and alone:
-        return _SWITCHED[word], 1
+    if word in SWITCHED and alone:
+        return SWITCHED[word], 1
     if (word in ("on", "off") and alone) or (postures.is_posture(word) and alone):
         return "turn", 0
     size = link_at(rest, int(postures.is_posture(word)))

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.plan.grammar.words.vocabulary import Match, Nouns
 
 _WORKING = frozenset({"push", "sweep", "drag", "nudge", "shove", "slide", "shift", "clean", "collect", "plate"})
 """Deeds that are done with a tool more often than to what a thing holds."""
@@ -27,6 +27,15 @@ _TOOLS = (
 )  # fmt: skip
 _GRIPPING = ("tongs", "spatula", "stick", "tweezers", "chopsticks", "pliers", "ladle")
 """What things are picked up and put down with."""
+_CUTLERY = ("knife", "kitchen knife", "fork", "spoon", "scissors")
+"""What things are picked up with that have none of it: "pick up bread with knife"."""
+_CARRYING = ("plate", "tray", "cutting board", "table", "desk", "counter", "toolbox", "shelf", "napkin", "placemat")
+_CLOTHS = ("towel", "dish towel", "napkin", "paper towel", "sponge", "brush", "scrub brush", "paintbrush")
+_DONE_WITH = {
+    **dict.fromkeys(("dry", "wipe", "clean", "wash", "rinse", "scrub", "dust", "polish", "cover"), _CLOTHS),
+    **dict.fromkeys(("cut", "slice", "chop", "carve", "split", "hold"), _TOOLS),
+}
+"""Tools of what is done to a thing without an article: "dry plate with towel" tells no plate that has one."""
 
 
 def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: Nouns) -> tuple[int, int]:
@@ -43,11 +52,16 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         end = next(
             (n for n in range(leads, len(words)) if body[n].mark or words[n] == "and" or link_at(body, n)), len(words)
         )
-        found = next((one for n in range(leads, end) if (one := nouns.match(words[n:end])) is not None), None)
+        found = noun_of(words[leads:end], nouns)
         behind = words[end : end + 1]
         ends = not behind or behind[0] in ("to", "into", "onto", "towards", "toward", "and", "from", "off")
-        if found is None or found.plural or leads == at + 1 or not ends:
+        if words[at] == "using" and words[end - 1] in lexicon.GENERICS:
+            return at, end
+        if found is None or found.plural or not ends:
             continue
+        owner = noun_of(words[:at], nouns)
+        carried = owner is not None and any(nouns.of_class(owner.noun, each) for each in (lexicon.HOLLOW, _CARRYING))
+        picked = verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING if carried else (*_GRIPPING, *_CUTLERY))
         taken = (
             words[leads - 1] == "the" and verb in _WORKING | _HANDLING and words[end - 1] in {t.text for t in before}
         )
@@ -56,6 +70,22 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         # "Get it out with the stick"
         placed = placed or (verb in _HANDLING and words[0] in ("it", "them"))
         tool = (verb in _WORKING | _TURNING or placed) and nouns.of_class(found.noun, _TOOLS)
-        if taken or tool or words[at] == "using" or (verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING)):
+        # "Pick up meat with spatula", and not "pick up plate with fork"
+        bare = leads == at + 1 and carried and not any(link_at(body, n) for n in range(1, at))
+        if words[at] == "using" or ((taken or tool or picked) and not bare):
             return at, end
     return 0, 0
+
+
+def done_with(tokens: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `tokens` begin with what is done to a thing with a tool: "cut bread with knife"."""
+    words = [token.text for token in tokens]
+    end = next((n for n in range(len(words)) if tokens[n].mark or words[n] in ("and", "then")), len(words))
+    at = next((n for n in range(2, end - 1) if words[n] in ("with", "using")), 0)
+    found = noun_of(words[at + 1 : end], nouns) if at and words[0] in _DONE_WITH else None
+    return found is not None and nouns.of_class(found.noun, _DONE_WITH[words[0]])
+
+
+def noun_of(words: Sequence[str], nouns: Nouns) -> Match | None:
+    """The noun that ends `words`."""
+    return next((one for n in range(max(len(words) - 3, 0), len(words)) if (one := nouns.match(words[n:]))), None)
