@@ -28,7 +28,9 @@ _CLOSED_BY_LIDS = ("bottle", "teapot", "kettle", "thermos", "canister", "cookie 
                    "rice cooker", "pressure cooker", "flask", "box", "toolbox", "tube")  # fmt: skip
 """What a lid or a cap is on, besides what is hollow."""
 _POTTED, _POTS = ("plant", "potted plant", "cactus"), ("flower pot", "planter", "vase", "pot")
-_GROWING = (*_POTTED, "tree", "flower", "rose", "tulip", "succulent", "bouquet", "bush", "seed", "trowel")
+LEAFY = (*_POTTED, "tree", "succulent", "bush")
+"""What its leaves give its colour."""
+_GROWING = (*LEAFY, "flower", "rose", "tulip", "bouquet", "seed", "trowel")
 """What one thinks of in a flower pot, the first of it planted."""
 _SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
 """Seats on which nobody leaves a cup."""

@@ -129,7 +129,9 @@ class Having(Judging):
             # "A jar that holds a nut and a clip on the desk": what it holds is in the jar.
             cost += 0.8 * any(carriers[head] != head for head in modifier.heads)
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
-        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        # "A bowl of nuts on a plate": the plate is none of what the bowl is full of.
+        filled = link.manner == "of" and self._phrase(owners[0]).kind == "object"
+        cost += (2.0 if filled else 0.15) * any(carriers[head] != head for head in modifier.heads)
         if inside and any(head > min(inside) for head in left):
             # "A crate with a nut in it and a jar": what is "in it" ends what the crate has.
             cost += _ENDED

@@ -196,7 +196,10 @@ class Boundaries:
             return None
         if not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
             # "a hefty, red-painted box": what is no noun and stands before a comma and a modifier describes.
-            known = self._nouns.longest([token.text for token in run]) or self._nouns.resembles_noun(run[-1].text)
+            # "Red walls, white chairs": no walls are chairs, whether they are made or not.
+            several = len(run) > 1 and bool(singulars(run[-1].text))
+            known = several or self._ends_in_noun([each.text for each in run])
+            known = known or self._nouns.resembles_noun(run[-1].text)
             after = self._tokens[at + 1].text
             if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
                 return None

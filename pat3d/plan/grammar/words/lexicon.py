@@ -141,14 +141,14 @@ COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "v
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
     "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
-    "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+    "smattering", "scattering", "flock", "herd", "swarm", "bouquet", "bouquets", "posy"})  # fmt: skip
 ALIKE_IN_PLURAL = frozenset({"sheep", "fish", "deer"})
 """Nouns of which the plural is no other word: "a herd of sheep"."""
 ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""
-SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "bouquet", "model", "block", "ball"})
+SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "model", "block", "ball"})
 """X in "X of Y" where X is the form that Y has."""
 PICTURES = frozenset({"photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration",
     "display", "scene", "arrangement", "painting", "drawing", "depiction"})  # fmt: skip
