@@ -180,18 +180,16 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
             at += 2
             continue
         led = at + (words[0] in ("a", "an"))
-        look = (
-            n
-            for n in range(led, len(tokens))
-            if not (is_modifier(tokens[n].text) or (n > led and tokens[n].text == "and"))
-        )
-        end = next(look, led)
+        stops = (n for n in range(led, len(tokens)) if not (is_modifier(tokens[n].text) or tokens[n].text == "and"))
+        end = next(stops, led)
+        end -= led < end and tokens[end - 1].text == "and"
         before, behind = [token.text for token in made[-2:]], [token.text for token in tokens[end : end + 2]]
         coloured = led < end and is_colour_word(tokens[end - 1].text)
         if coloured and before[1:] == [","] and singulars(before[0]) and behind[:1] == [","] and {*behind} & FINITE:
             # "The pears, a deep green, are ripe": no pear is one of them.
             name = made[-2]
-            made[-2:] = [*(replace(each, start=name.start, end=name.start) for each in tokens[led:end]), name]
+            look = (each for each in tokens[led:end] if each.text != "and")
+            made[-2:] = [*(replace(each, start=name.start, end=name.start) for each in look), name]
             at = end + 1
             continue
         ended = behind[:1] in (["and"], ["but"], ["while"]) or tokens[min(end, len(tokens) - 1)].mark

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
@@ -209,8 +210,11 @@ class Boundaries:
         first = self._skip_joint(at)
         look = first
         if colours:
-            # Every member of the list is a colour, and the last stands directly before more of the phrase.
-            while is_colour_word(self._tokens[look].text):
+            # Every member of the list is a colour (or a material, of one thing: "a red and wooden stool"), and the last stands directly before more of the phrase.
+            one = self._tokens[at - len(run) - 1].text in ("a", "an") and not self._nouns.match([run[-1].text])
+            while is_colour_word(word := self._tokens[look].text) or (
+                one and find_material(word) and is_modifier(word)
+            ):
                 look += 1
                 if (onward := self._skip_joint(look)) > look:
                     if not is_colour_word(self._tokens[onward].text):
