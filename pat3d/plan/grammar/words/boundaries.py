@@ -210,7 +210,8 @@ class Boundaries:
         first = self._skip_joint(at)
         look = first
         if colours:
-            # Every member of the list is a colour (or a material, of one thing: "a red and wooden stool"), and the last stands directly before more of the phrase.
+            # Every member of the list is a colour (or a material, of one thing: "a red and wooden stool"), and the
+            # last stands directly before more of the phrase.
             one = self._tokens[at - len(run) - 1].text in ("a", "an") and not self._nouns.match([run[-1].text])
             while is_colour_word(word := self._tokens[look].text) or (
                 one and find_material(word) and is_modifier(word)

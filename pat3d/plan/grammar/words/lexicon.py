@@ -280,6 +280,8 @@ SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam", "log")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
+WORN = (*ON_HEAD, "t-shirt", "coat", "scarf", "sunglasses", "mitten", "apron", "backpack")
+"""What a figure has on, though it may lie anywhere."""
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk",
     "birdcage", "dollhouse", "file sorter")  # fmt: skip
 TIERED = ("birdcage", "dollhouse", "file sorter")
@@ -368,6 +370,7 @@ PARTS_OF: dict[str, tuple[str, ...]] = {
     "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
     "stand": ("globe", "monitor"), "flower": ("plant", "potted plant", "cactus", "tree", "bush"),
     **dict.fromkeys(("mantelpiece", "mantel", "mantle", "hearth"), ("fireplace",)),
+    "toilet seat": ("toilet",), "faucet": ("sink", "bathtub"),
 }  # fmt: skip
 """What the things after it have as a part, though there are things of that name too."""
 BUILT_IN = frozenset({"burner", "mantelpiece", "mantel", "mantle", "hearth"})
