@@ -34,8 +34,8 @@ _GROWING = (*LEAFY, "flower", "rose", "tulip", "bouquet", "seed", "trowel")
 """What one thinks of in a flower pot, the first of it planted."""
 TOPPED = ("cake", "pie", "pizza", "cupcake", "muffin", "pancake", "waffle", "ice cream", "bread", "donut", "lettuce")
 _TOPPINGS = (*lexicon.FRUIT, "strawberry", "blueberry", "raspberry", "blackberry", "tomato", "mushroom", "cheese",
-             "egg", "olive", "bell pepper", "onion", "candle", "sausage", "walnut", "almond", "cookie", "cabbage", "bacon",
-             "steak", "carrot", "broccoli", "garlic")  # fmt: skip
+             "egg", "olive", "bell pepper", "onion", "candle", "sausage", "walnut", "almond", "cookie", "cabbage",
+             "bacon", "steak", "carrot", "broccoli", "garlic")  # fmt: skip
 """What is on a cake, a pizza, a salad, that is topped with it."""
 _SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
 """Seats on which nobody leaves a cup."""
@@ -158,7 +158,8 @@ class Plausible:
         if self.floor(child) == self.floor(parent):
             return 0.1
         lone = child if self.floor(parent) else parent
-        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.4
+        # "A sink and a toilet in front of a mirror", which hangs or stands there
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE, ("mirror",)) else 1.4
 
     def held(self, child: str, kind: str, parent: str) -> float:
         """Of `child` being carried by `parent` in the manner `kind`."""
