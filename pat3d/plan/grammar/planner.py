@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar.chunking.chunks import trimmed
@@ -48,7 +49,7 @@ from pat3d.plan.grammar.sparing import Sparing, copied
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.left_out import doing_nothing, quoted, without
 from pat3d.plan.grammar.words.lexing import Span, Token, normalise, singulars, tokenise
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.names import catalogue_names
 from pat3d.plan.grammar.words.vocabulary import Nouns, Vocabulary
 from pat3d.plan.scene_plan import ScenePlan
@@ -282,7 +283,7 @@ class GrammarPlanner(Sparing):
         further: list[tuple[Clause, World, int]] = []
         for start, end in spans:
             look = clause.tokens[start - 1].text if start else ""
-            if is_modifier(look) and self._nouns.match([look]):
+            if is_colour_word(look) and not find_material(look) and self._nouns.match([look]):
                 # Without its "cover" an orange cover would be an orange.
                 start -= 1
             lighter = copied(world)

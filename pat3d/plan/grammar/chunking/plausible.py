@@ -104,10 +104,12 @@ class Plausible:
             return 0.0
         if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
             return 1.5
-        if self.is_a(child, lexicon.WORN):
-            return 0.2 if self.is_a(parent, lexicon.FIGURES) else 0.5 + 0.6 * (not self.is_a(child, lexicon.ON_HEAD))
-        if self.is_a(parent, _SUPPORTING):
-            return 0.3 * (not self.tops(child, parent))
+        if self.is_a(child, lexicon.WORN) and self.is_a(parent, lexicon.FIGURES):
+            return 0.2
+        if self.is_a(child, lexicon.ON_HEAD):
+            return 0.5
+        if self.is_a(parent, _SUPPORTING) or self.tops(child, parent):
+            return 0.3
         if self.is_a(parent, lexicon.ROUND, lexicon.SLENDER) and child != parent:
             return 2.2
         if self.hollow(parent):

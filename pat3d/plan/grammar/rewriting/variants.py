@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
+from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.rewriting.of_material import made_of
 from pat3d.plan.grammar.rewriting.respectively import respectively
 from pat3d.plan.grammar.words import lexicon
@@ -184,7 +185,7 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         end = next(stops, led)
         end -= led < end and tokens[end - 1].text == "and"
         before, behind = [token.text for token in made[-2:]], [token.text for token in tokens[end : end + 2]]
-        coloured = led < end and is_colour_word(tokens[end - 1].text)
+        coloured = led < end and is_colour_word(tokens[end - 1].text) and not find_material(tokens[end - 1].text)
         if coloured and before[1:] == [","] and singulars(before[0]) and behind[:1] == [","] and {*behind} & FINITE:
             # "The pears, a deep green, are ripe": no pear is one of them.
             name = made[-2]
