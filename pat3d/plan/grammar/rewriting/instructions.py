@@ -343,6 +343,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         return at
     bare = base in ("stack", "open", "close", "sort", "pack", "push", "pull", "drop", "empty", "plate", "align", "add")
     working = word in _WORKING and nouns.match([word]) is None
+    known = known or follower in lexicon.SUBSTANCES
     bare, known = bare or working, known or (working and bool(nouns.respelled(follower)))
     if not opening and word in _WITH_ANOTHER and known and not tokens[at + 1].mark:
         return at
