@@ -263,8 +263,9 @@ def _is_placing(step: Step, world: World, items: Sequence[Item], goal: Item) -> 
             return False
         if _BELOW.search(step.said) is not None:
             return False
-    if link.manner == "half" and link.side != "centre" and not world.is_a(goal, lexicon.LEVEL, lexicon.SEATS):
-        # "To the left side of the lamp" is beside it.
+    beside = len(step.goal) > 1 if link.side == "centre" else not world.is_a(goal, lexicon.LEVEL, lexicon.SEATS)
+    if link.manner == "half" and beside:
+        # "To the left side of the lamp" is beside it, "in the middle of the plums" among them.
         return False
     if link.said == "over" and not all(world.is_a(item, lexicon.THIN) for item in items):
         # A bowl over a ball is around it.

@@ -70,7 +70,10 @@ class Goals(Having):
         # What an object "with" another is moved to stands behind both; "with the pears on the left" is no such place.
         aside = any(fact[0] == "place" and not fact[3] for fact in modifier.facts)
         there = any(fact[0] == "rel" and not self._is_pronoun(fact[3]) for fact in modifier.facts)
-        cost += (0.2 + 0.6 * aside + 0.3 * there) * (link.manner == "with")
+        # "Put the soup with noodles in the bowl": bare noodles tell which soup.
+        bare = not any(self._phrase(head).determined or self._phrase(head).count for head in modifier.heads)
+        bare = bare and not self._is_pronoun(modifier.heads)
+        cost += (0.2 + 0.6 * (aside or bare) + 0.3 * there) * (link.manner == "with")
         cost += 0.6 * any(fact[0] == "rel" and self._link(fact[1]).manner == "source" for fact in modifier.facts)
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)
@@ -104,4 +107,6 @@ class Goals(Having):
         if before is None or rest.start - 1 in first.heads or behind.kind != "object":
             return False
         bare = not (behind.determined or behind.plural or behind.count) and not behind.modifiers.colours
-        return bare and (before.determined or before.possessive) and self._phrase(first.heads[0]).determined
+        aside = any(fact[0] == "goal" and self._link(fact[1]).kind in LATERAL_KINDS for fact in first.facts)
+        moved = self._phrase(first.heads[0]).determined or (aside and self._is_pronoun(first.heads))
+        return bare and (before.determined or before.possessive) and moved
