@@ -46,7 +46,8 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         found = next((one for n in range(leads, end) if (one := nouns.match(words[n:end])) is not None), None)
         behind = words[end : end + 1]
         ends = not behind or behind[0] in ("to", "into", "onto", "towards", "toward", "and", "from", "off")
-        if found is None or found.plural or leads == at + 1 or not ends:
+        using = words[at] == "using" and (found is not None or words[leads] in lexicon.GENERICS)
+        if not ends or not (using or (found is not None and not found.plural and leads > at + 1)):
             continue
         taken = (
             words[leads - 1] == "the" and verb in _WORKING | _HANDLING and words[end - 1] in {t.text for t in before}
@@ -55,7 +56,8 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         placed = verb in ("open", "close") and any(link_at(body, n) for n in range(1, at))
         # "Get it out with the stick"
         placed = placed or (verb in _HANDLING and words[0] in ("it", "them"))
-        tool = (verb in _WORKING | _TURNING or placed) and nouns.of_class(found.noun, _TOOLS)
-        if taken or tool or words[at] == "using" or (verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING)):
+        noun = found.noun if found is not None else ""
+        tool = (verb in _WORKING | _TURNING or placed) and nouns.of_class(noun, _TOOLS)
+        if taken or tool or using or (verb in _HANDLING and nouns.of_class(noun, _GRIPPING)):
             return at, end
     return 0, 0
