@@ -54,7 +54,6 @@ from pat3d.plan.audit.unlikely import Cost, unlikely
 from pat3d.plan.audit.untried import untried
 from pat3d.plan.audit.words import (
     ARTICLES,
-    CANNED,
     BREAKING,
     EACH,
     ENDS,
@@ -379,7 +378,7 @@ class _Auditor(Compared):
         quoted = " ".join(note for note in self.plan.notes if "no task does" not in note).lower()
         for obj in self.plan.objects:
             words = {each for word in re.findall(r"[\w']+", obj.phrase.lower()) for each in (word, *singulars(word))}
-            name, noun = set(re.findall(r"[a-z']+", obj.name.lower())), set(obj.noun.split())
+            name = set(re.findall(r"[a-z']+", obj.name.lower()))
             carriers = carriers_of(obj.name, self.plan.relations)
             dish = any(other.noun in ON_DISHES for other in self.plan.objects if other.name in carriers)
             corrected = any(f'"{word}" is read as' in quoted for word in words)
@@ -390,10 +389,8 @@ class _Auditor(Compared):
                 and obj.phrase.lower() not in quoted
             ):
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
-            elif f'"{obj.noun}"' not in quoted and (
-                (name & UNCOUNTED and not name & noun) or (noun - words and set() < noun & words <= CANNED)
-            ):
-                # "latte art", "furniture": of what shape is not said; "the soup" comes in a can.
+            elif name & UNCOUNTED and not name & set(obj.noun.split()) and f'"{obj.noun}"' not in quoted:
+                # "latte art", "furniture": of what shape is not said.
                 made.append(f'"{obj.phrase}" is made as a "{obj.noun}"')
             elif obj.noun in POURED and dish and not words & PACKETS:
                 made.append(f'"{obj.phrase}" is made as what it comes in')

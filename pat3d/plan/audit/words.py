@@ -149,8 +149,6 @@ ON_DISHES = frozenset({"plate", "bowl", "pan", "frying pan", "saucepan", "pot", 
 PIECES = frozenset({"slice", "piece", "wedge", "chunk"})
 UNCOUNTED = frozenset({"luggage", "furniture", "jewelry", "paper", "cloth", "fruit", "equipment", "chalk", "art"})
 """What there are pieces of that are whole."""
-CANNED = frozenset({"soup", "sauce", "coffee", "tea", "sugar"})
-"""What is made as the can or the box that it is sold in."""
 PACKETS = frozenset({"bottle", "jar", "can", "box", "carton", "packet", "tube", "shaker", "container", "jug"})
 
 
