@@ -104,7 +104,8 @@ class Relating:
             if not lid and (shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
             within = link.manner == "source" and world.is_a(parents[0], _POURING)
-            self.relate(children, Link(kind="on" if lid else "in" if within else world.containment(parents[0])), parents)
+            kind = "on" if lid else "in" if within else world.containment(parents[0])
+            self.relate(children, Link(kind=kind), parents)
         elif link.kind in SUPPORT_KINDS:
             self._carried(children, link, parents, said)
         elif link.kind in LATERAL_KINDS:

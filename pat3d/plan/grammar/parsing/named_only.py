@@ -83,7 +83,7 @@ def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> tuple[list
 
 
 def begins_with_thing(text: str, tokens: Sequence[Token], nouns: Nouns) -> bool:
-    """Whether what `tokens` of one instruction are about is named first, as in "pick up the bowl right beside the box"."""
+    """Whether what `tokens` of one instruction are about is named first: "pick up the bowl right beside the box"."""
     words = [token.text for token in tokens]
     verb = next((at for at in range(len(words) - 2, -1, -1) if words[at] in TAKING), -1)
     start = verb + 1 + (words[verb + 1] == "up")

@@ -369,7 +369,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
 
 
 def _is_done_with(tokens: Sequence[Token], nouns: Nouns) -> bool:
-    """Whether `tokens` are "dry pan with tea towel", which says what it is done with; a dry pan with a lid is a thing."""
+    """Whether `tokens` are "dry pan with tea towel", said of a deed; a dry pan with a lid is a thing."""
     words = [token.text for token in tokens]
     tool = words.index("with") + 1 if "with" in words[2:] else len(words)
     end = next((n for n in range(tool, len(words)) if tokens[n].mark or words[n] == "and"), tool)
