@@ -104,7 +104,7 @@ class Goals(Having):
         return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
 
     def _crowds(self, fact: tuple) -> bool:
-        """Whether `fact` has a vessel on a plate, with little room beside it: "the bowl next to the box on the plate"."""
+        """Whether `fact` has a vessel on a plate, little room beside: "the bowl next to the box on the plate"."""
         if fact[0] != "rel" or self._link(fact[1]).kind not in SUPPORT_KINDS:
             return False
         likely, dish = self._likely, self._noun(fact[3][0])
