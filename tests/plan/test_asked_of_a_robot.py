@@ -32,9 +32,12 @@ def told(prompt: str) -> tuple[set[str], set[str], str | None, list[str]]:
         ("I want the spoon to the left of the saucer.", "beside:spoon:left_of:saucer"),
         ("The marble should be in the jar.", "place:marble:jar"),
         ("The jar must be on the tray. The spoon should be in the jar.", "chain:place:jar:tray:then:place:spoon:jar"),
+        ("I need the jar, the cup and the lime on the tray.",
+         "chain:place:jar:tray:then:place:cup:tray:then:place:lime:tray"),
+        ("I want both jars on the shelf.", "chain:place:jar 1:shelf:then:place:jar 2:shelf"),
         ("Give me a jug of juice.", "pick:jug"),
     ],
-)
+)  # fmt: skip
 def test_a_wish_is_what_is_to_be_done(prompt: str, task: str):
     plan = planned(prompt)
     assert plan.task == task

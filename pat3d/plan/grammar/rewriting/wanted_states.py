@@ -61,7 +61,7 @@ _PLACES = frozenset({"left", "right", "front", "back", "middle", "center", "cent
 """Places on what carries a thing."""
 SWITCHED = {"open": "open", "closed": "close", "shut": "shut"}
 _LEADS = lexicon.DEFINITE | lexicon.POSSESSIVES | {"it", "they"}
-_MADE_UP = lexicon.NUMBERS.keys() | {"a", "an", "some"}
+_MADE_UP = (lexicon.NUMBERS.keys() - {"both"}) | {"a", "an", "some"}
 _SCENES = frozenset({"scene", "scenario", "image", "picture", "setup", "create", "generate"})
 
 
@@ -152,7 +152,9 @@ def _moved(tokens: list[Token], before: Collection[str], *, wanted: bool) -> lis
     told = {"it", "they", *before} & {words[verb - 1], *singulars(words[verb - 1])} and _PLACED & {*before}
     where = {*words[verb + 1 :]}
     if wanted and wished != tokens:
-        return _deeds(wished, tokens[0]) or tokens
+        # "I want the mug, the pen and the cup on the tray" is one state.
+        done = _deeds(wished, tokens[0]) or _deed(wished[:-1], tokens[0])
+        return [*done, *wished[-1:] * (done[-1:] != wished[-1:])] if done else tokens
     if not (told or wanted) or not verb or not _PLACED & where or _PLACES & where:
         return tokens
     if words[verb] in _GOES:
