@@ -40,7 +40,7 @@ def test_a_thing_that_is_asked_for_is_to_be_fetched(prompt: str, there: set[str]
     ("prompt", "there"),
     [
         ("Give me a green jug on a bench.", {"jug on bench"}),
-        ("I'd like the lamp on the desk.", {"lamp on desk"}),
+        ("I'd like the desk beside the bed.", {"desk next_to bed"}),
         ("I need three ladles.", set[str]()),
         ("I want a bench.", set[str]()),
         ("I need a jug. It is on a tray.", {"jug on tray"}),

@@ -34,7 +34,8 @@ ENDS = (
     ("A pen and a mug are on a shelf. See to it that the pen is in the mug in the end.", "place:pen:mug"),
     ("A ball and a crate are on a bench. The ball goes in the crate.", "place:ball:crate"),
     ("The pen should end up in the mug.", "place:pen:mug"),
-    ("The mug should be on the tray.", None),
+    ("The mug should be on the tray.", "place:mug:tray"),
+    ("The mug should be on the tray. The tray is on a shelf.", None),
     ("I want a mug on a tray.", None),
     ("A table has a cup and a bowl on it. The cup should be to the left of the bowl.", None),
 )

@@ -92,7 +92,7 @@ def test_what_no_task_brings_about_is_told_and_not_there(text, said):
     [
         ("Create a scene with a cup and a plate. Make sure the cup is on the plate.", ("cup", "on", "plate")),
         ("Place a mug on a shelf. Make sure the mug is next to a bowl.", ("mug", "on", "shelf")),
-        ("The cup should be on the tray.", ("cup", "on", "tray")),
+        ("The cup should be on the tray. The tray is on a bench.", ("cup", "on", "tray")),
         ("Make sure there is a cup on the table.", ("cup", "on", "table")),
         ("A globe is at the end of the shelf.", ("globe", "on", "shelf")),
     ],

@@ -45,7 +45,7 @@ _NAMESAKES = {
     "glove": "bat baseball ball", "clip": "paper papers document documents page",
     "computer": "laptop laptops tablet", "keys": "piano", **dict.fromkeys(("rice", "pasta", "noodles"), ""),
     "brush": "dustpan broom mop sponge sink dish dishes soap comb razor toilet bathtub pot pan shoe shoes dog cat",
-    "soup": "ladle platter crackers spoon salad", "red bull": "cow cows farm barn field horse sheep pasture fence",
+    "red bull": "cow cows farm barn field horse sheep pasture fence",
 }  # fmt: skip
 """Names of things that the catalogue has by another name only, and in what company they are meant; empty in any."""
 _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}
@@ -55,6 +55,7 @@ _FAST = frozenset({"cord", "cable", "handle", "strap", "hose", "plug", "wire", "
 _BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick"})
 """Names that alone mean one of several things, of which the catalogue has another name."""
 _ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
+_SOLD = frozenset({"soup", "sauce", "coffee", "tea", "sugar"})
 _ALWAYS = frozenset({"instead", "namely", "respectively", "half", "twice"})
 """First words of what is always read as a guess; the others only where something ends on the ground."""
 
@@ -248,7 +249,10 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
             worn = obj.noun == said and {*whole.split()} & {*it.said.words} and "baseball" not in words
             if worn and words[-1] in it.said.words:
                 yield it.said.words.index(words[-1]), f'"{said}" is made as one to wear'
-        alone = _BARE & {words[-1], *singulars(words[-1])} if words and not {*obj.noun.split()} & {*words} else ()
+        shared = {*obj.noun.split()} & {*words}
+        alone = _BARE & {words[-1], *singulars(words[-1])} if words and not shared else set[str]()
+        # "The soup" is made as a can of it.
+        alone |= _SOLD & {*words[-1:]} if set[str]() < shared <= _SOLD and obj.noun not in _SOLD else set[str]()
         for said in sorted(alone):
             yield 0, f'"{said}" is made as a "{obj.noun}"'
 

@@ -17,10 +17,11 @@ from pat3d.plan.grammar.meaning.ellipsis import completed
 from pat3d.plan.grammar.meaning.interpret import Interpreter
 from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.parsing.named_only import has_verb, is_thing, names_all, things_named
+from pat3d.plan.grammar.parsing.named_only import begins_with_thing, has_verb, is_thing, names_all, things_named
 from pat3d.plan.grammar.parsing.pieces import COMPARING, in_pieces
 from pat3d.plan.grammar.rewriting.distances import with_distances
 from pat3d.plan.grammar.rewriting.instructions import Clause, asked
+from pat3d.plan.grammar.rewriting.outcomes import TAKING
 from pat3d.plan.grammar.rewriting.remarks import Remarks
 from pat3d.plan.grammar.rewriting.unread import unread_spans
 from pat3d.plan.grammar.words.left_out import quoted, without
@@ -100,7 +101,12 @@ class Sparing(ABC):
         _, missing = things_named(text, clause.tokens, self._nouns)
         but = " but " * bool(missing) + ", ".join(f'"{each}"' for each in missing)
         world.note(f'not understood: "{said}"; what it names is there{but}, and no more is made of it.')
-        return self._with_named(text, clause.tokens, world, company)
+        world, other = self._with_named(text, clause.tokens, world, company)
+        if asks or TAKING & {token.text for token in clause.tokens}:
+            # "Pick up the bowl right beside the box and move it": not the box.
+            plain = begins_with_thing(text, clause.tokens, self._nouns)
+            world.unread = world.subject if plain else []
+        return world, other
 
     def _with_named(
         self, text: str, tokens: Sequence[Token], world: World, company: Collection[str]

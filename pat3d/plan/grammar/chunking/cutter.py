@@ -371,5 +371,5 @@ class Cutter(Qualities):
         part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in lexicon.ON_RIMS)
         if read is not None and part and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
-                self._made.unread.append(read[0].words)
+                self._made.unread.append(read[0].words or read[0].said)
             self._at = read[1]

@@ -345,12 +345,6 @@ class Contrast(Pronouns):
         groups = [items[0].group for items in refs if len(items[0].group.items) > 1]
         return list(dict.fromkeys(groups))
 
-    def _listed_before(self, at: int) -> list[Item]:
-        """The two single things that stand right before chunk `at`, joined by "and"; nothing where others do."""
-        pair = [self.known.get(head, []) for head in (at - 4, at - 2)]
-        joined = at > 3 and self._chunks[at - 3].kind == "joint" and "and" in self._chunks[at - 3].text
-        return [items[0] for items in pair] if joined and [len(items) for items in pair] == [1, 1] else []
-
     def _enumerated(self, at: int) -> list[Item]:
         """The single things that the sentence before chunk `at`, or the one before it, begins with in a list."""
         heads: list[int] = []

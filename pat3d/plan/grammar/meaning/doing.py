@@ -73,7 +73,9 @@ class Doing(Placing):
         aims = [fact for fact in facts if fact[0] == "goal" and self._chunks[fact[1]].relation.kind in SUPPORT_KINDS]
         for _, at, heads in (fact for fact in facts if fact[0] == "extra"):
             link, marks = self._chunks[at].link, self._said.ref_all(heads)
-            moved, below = (self._said.ref_all(aims[-1][n])[:1] if aims else [] for n in (2, 3))
+            # "Put the cup on the tray next to the jug and the fork on the plate": the jug is on the tray.
+            aim = next((aim for aim in reversed(aims) if aim[1] < at), None)
+            moved, below = (self._said.ref_all(aim[n])[:1] if aim else [] for n in (2, 3))
             beside = link is not None and (link.manner == "between" or link.kind in LATERAL_KINDS)
             known = beside and bool(marks and moved and below)
             if link is not None and known and all(fits(world, below[0], mark) for mark in marks):

@@ -113,7 +113,7 @@ class Interpreter(Holding):
                 self._said.not_understood([at])
         world = self._world
         subject = self._said.ref(reading.heads[0]) if reading.heads else []
-        last = max(self._said.clauses)
+        last, world.unread = max(self._said.clauses), None
         world.subject = self._said.ref(self._said.clauses[last][0]) or subject or world.subject
         if self._clause.manner is not None:
             # "Pick the sponge and the pan, place them in the sink": both.

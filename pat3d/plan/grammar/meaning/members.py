@@ -187,12 +187,6 @@ class Members(ByPlace):
             # "A bench holds a pen and a ruler. Both are pink.", "A cup is by a jar. Both are pink.": of one are no two.
             by = [edge.parent for edge in world.laterals if edge.child is before[0]] if phrase.head == "both" else []
             return self.carried_by(before) or (before + by if len(by) == 1 else before)
-        if phrase.words.lower().startswith("both ") and (pair := self._listed_before(at)):
-            # "A mug and a cup, both red"
-            self.all.add(at)
-            for item in pair:
-                tell(item, words)
-            return pair
         if phrase.head == "each":
             self.each.add(at)
             besides = self._besides(at)

@@ -138,7 +138,11 @@ class Pronouns:
             # "A laptop is on a desk; to its right is a mouse, and behind it a lamp": behind the laptop.
             candidates.append((-0.2, self._told_by_its_side(at)))
             candidates.append((-1.7, self._world.below_told(next((each for each in before if each), []), other)))
-        steps = self._world.steps
+        steps, unread = self._world.steps, self._world.unread
+        if child and self.asked and unread is not None:
+            if not unread or {*unread} & {*other}:
+                raise UnreadError(f'"{phrase.words}" (word {phrase.number}): what that is was not read.', phrase.number)
+            candidates.append((-2.4, unread))
         if child and not plural and steps and steps[-1].manner == "pick":
             # "Pick the bowl on the box and place it on the plate"
             if not steps[-1].items:

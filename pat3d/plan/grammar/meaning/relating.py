@@ -33,6 +33,9 @@ _ENDS = 2
 _CORNERS = 4
 """Of a surface: "a candle in each corner"."""
 
+_POURING = ("bottle", "blender", "thermos", "kettle", "teapot")
+"""What something is taken out of, though little is ever put into it."""
+
 
 class Relating:
     """Relates objects of one world."""
@@ -98,7 +101,9 @@ class Relating:
             shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
             if not lid and (shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
-            self.relate(children, Link(kind="on" if lid else world.containment(parents[0])), parents)
+            within = link.manner == "source" and world.is_a(parents[0], _POURING)
+            kind = "on" if lid else "in" if within else world.containment(parents[0])
+            self.relate(children, Link(kind=kind), parents)
         elif link.kind in SUPPORT_KINDS:
             self._carried(children, link, parents, said)
         elif link.kind in LATERAL_KINDS:

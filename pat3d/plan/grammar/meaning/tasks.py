@@ -49,6 +49,8 @@ _HARDLY = 1.0
 """How unlikely it is that something rests on what it is only brought to."""
 _GROWING = ("planter", "flower pot")
 """What something is brought to without being put in it."""
+_KEEPING = ("knife block",)
+"""What something is brought to that is kept in it."""
 _ELSEWHERE = re.compile(
     r"\b(?:on|onto|in|into|at|(?<!tower )(?<!stack )(?<!pile )from)\b (?!(?:top of )?(?:each|one|another)|an? )|,",
     re.IGNORECASE,
@@ -203,6 +205,8 @@ def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: 
     if link is None or link.says is not None or len({*step.goal}) != 1 or world.on_floor(goal) or goal in items:
         return []
     brought = link.manner == "goal" and link.kind == "on" and link.said != "onto" and bool(verbs & _BRINGING)
+    # To bring a mug to the mug tree is to hang it there.
+    brought = brought and not world.is_a(goal, lexicon.HOOKED)
     half = link.manner == "half" and _AT_SIDE_OF.search(step.said) is not None
     beside = (link.manner == "place" or half) and link.kind in LATERAL_KINDS and link.kind != "around"
     if not (brought or beside) or verbs & _NOT_BESIDE or _BELOW.search(step.said) is not None:
@@ -264,14 +268,16 @@ def _is_placing(step: Step, world: World, items: Sequence[Item], goal: Item) -> 
     if link.manner == "goal" and "into" not in step.said.lower() and world.is_a(goal, _GROWING):
         # "Bring the bucket to the planter"
         return False
-    if not world.has_inside(goal) and link.manner in ("goal", "place") and link.said != "onto":
+    keeps = holds(noun) or world.is_a(goal, _KEEPING) or goal.group.words.lower().endswith("holder")
+    if not (world.has_inside(goal) or keeps) and link.manner in ("goal", "place") and link.said != "onto":
         if link.manner == "goal" and all(world.likely.on(world.noun(item), noun) >= _HARDLY for item in items):
             # "Carry the kettle to the lamp" is to beside it.
             return False
         if _BELOW.search(step.said) is not None:
             return False
-    if link.manner == "half" and link.side != "centre" and not world.is_a(goal, lexicon.LEVEL, lexicon.SEATS):
-        # "To the left side of the lamp" is beside it.
+    beside = len(step.goal) > 1 if link.side == "centre" else not world.is_a(goal, lexicon.LEVEL, lexicon.SEATS)
+    if link.manner == "half" and beside:
+        # "To the left side of the lamp" is beside it, "in the middle of the plums" among them.
         return False
     if link.said == "over" and not all(world.is_a(item, lexicon.THIN) for item in items):
         # A bowl over a ball is around it.

@@ -52,6 +52,8 @@ class World:
         self.notes: list[str] = []
         self.subject: list[Item] = []
         """What the sentence before is about."""
+        self.unread: list[Item] | None = None
+        """What the instruction before is about where that was not read: none where this is not known either."""
         self.spoken: list[Item] = []
         """What "it" last was as what something stands on or beside."""
         self.together: list[Item] = []

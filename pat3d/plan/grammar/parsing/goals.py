@@ -6,8 +6,14 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.parsing.having import Having
+from pat3d.plan.grammar.words import lexicon
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
+_ASKED = 0.3
+"""What it costs at most that something is put on a plate."""
+_CRAMPED = 0.6
+"""Cost of being put beside a vessel that stands on a plate."""
+_BOXES = ("box", "cookie box", "bottle", "can", "carton", "kettle", "cracker box", "cereal box", "storage box")
 NO_DETERMINER = 0.9
 """Cost of one thing without "a" that does not share that of what stands directly before it."""
 
@@ -61,7 +67,10 @@ class Goals(Having):
             return None
         if link.inverse and (link.manner != "with" or link.kind is not None):
             return None
-        cost = named.cost + modifier.cost + self._arcs(link, named.heads, modifier.heads)
+        arcs = self._arcs(link, named.heads, modifier.heads)
+        # "Put the bowl on the plate" is asked for, though few bowls stand on a plate.
+        dish = "modified" in named.flags and link.kind in SUPPORT_KINDS and self._is_small(modifier.heads[0])
+        cost = named.cost + modifier.cost + (min(arcs, _ASKED) if dish else arcs)
         # "Put the cup on the shelf above the sink": nothing is put above the sink.
         cost += 0.6 * ("placed" in named.flags and link.says == "above")
         cost += 0.5 * ("placed" in named.flags and bool(named.joints)) + 1.0 * (
@@ -70,8 +79,12 @@ class Goals(Having):
         # What an object "with" another is moved to stands behind both; "with the pears on the left" is no such place.
         aside = any(fact[0] == "place" and not fact[3] for fact in modifier.facts)
         there = any(fact[0] == "rel" and not self._is_pronoun(fact[3]) for fact in modifier.facts)
-        cost += (0.2 + 0.6 * aside + 0.3 * there) * (link.manner == "with")
+        # "Put the soup with noodles in the bowl": bare noodles tell which soup.
+        bare = not any(self._phrase(head).determined or self._phrase(head).count for head in modifier.heads)
+        bare = bare and not self._is_pronoun(modifier.heads)
+        cost += (0.2 + 0.6 * (aside or bare) + 0.3 * there) * (link.manner == "with")
         cost += 0.6 * any(fact[0] == "rel" and self._link(fact[1]).manner == "source" for fact in modifier.facts)
+        cost += _CRAMPED * (self._tells_where(at) and any(map(self._crowds, modifier.facts)))
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)
         # "The red cup on the tray and the blue one on the shelf": the blue one is moved too.
@@ -90,6 +103,19 @@ class Goals(Having):
         facts = (*named.facts, *modifier.facts, ("goal", at, named.heads, modifier.heads))
         return Node("IM", named.start, cost, named.heads, facts, named.joints, named.flags)
 
+    def _crowds(self, fact: tuple) -> bool:
+        """Whether `fact` has a vessel on a plate, little room beside: "the bowl next to the box on the plate"."""
+        if fact[0] != "rel" or self._link(fact[1]).kind not in SUPPORT_KINDS:
+            return False
+        likely, dish = self._likely, self._noun(fact[3][0])
+        vessels = (noun for noun in map(self._noun, fact[2]) if likely.hollow(noun) or likely.is_a(noun, _BOXES))
+        return self._is_small(fact[3][0]) and any(likely.on(noun, dish) > 0.0 for noun in vessels)
+
+    def _is_small(self, head: int) -> bool:
+        """Whether `head` is a plate, and no tray."""
+        dish = self._noun(head)
+        return self._likely.is_a(dish, lexicon.DISHES) and not self._likely.is_a(dish, lexicon.LEVEL)
+
     def _told_from_its_like(self, heads: tuple[int, ...]) -> bool:
         """Whether `heads` are "the blue one" or "the other": one more of what was named before."""
         return all(self._phrase(head).kind == "pieces" and self._phrase(head).determined for head in heads)
@@ -104,4 +130,6 @@ class Goals(Having):
         if before is None or rest.start - 1 in first.heads or behind.kind != "object":
             return False
         bare = not (behind.determined or behind.plural or behind.count) and not behind.modifiers.colours
-        return bare and (before.determined or before.possessive) and self._phrase(first.heads[0]).determined
+        aside = any(fact[0] == "goal" and self._link(fact[1]).kind in LATERAL_KINDS for fact in first.facts)
+        moved = self._phrase(first.heads[0]).determined or (aside and self._is_pronoun(first.heads))
+        return bare and (before.determined or before.possessive) and moved

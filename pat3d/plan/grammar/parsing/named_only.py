@@ -11,6 +11,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from pat3d.plan.grammar.chunking.phrases import PhraseReader
+from pat3d.plan.grammar.rewriting.outcomes import TAKING
 from pat3d.plan.grammar.rewriting.tails import Tails
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
@@ -79,6 +80,15 @@ def things_named(text: str, tokens: Sequence[Token], nouns: Nouns) -> tuple[list
         at = read[1] if read is not None and read[0].kind == "object" else at + max(1, link_at(tokens, at))
     there = [replace(tokens[0], text=word, mark=False) for word in ("there", "is")]
     return ([*there, *told[1:], tokens[-1]] if told else []), missing
+
+
+def begins_with_thing(text: str, tokens: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether what `tokens` of one instruction are about is named first: "pick up the bowl right beside the box"."""
+    words = [token.text for token in tokens]
+    verb = next((at for at in range(len(words) - 2, -1, -1) if words[at] in TAKING), -1)
+    start = verb + 1 + (words[verb + 1] == "up")
+    there, _ = things_named(text, tokens, nouns)
+    return bool(there) and there[2].number == tokens[start].number
 
 
 def has_verb(tokens: Sequence[Token], nouns: Nouns) -> bool:

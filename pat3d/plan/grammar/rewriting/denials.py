@@ -22,8 +22,8 @@ Told = tuple[list[Token], list[tuple[Token, Token]]]
 _NOTHING = frozenset({"nothing", "nobody"})
 _NO = frozenset({"neither", "none"})
 _UNABLE = tuple(tuple(said.split()) for said in (
-    "does not", "do not", "will not", "could not", "is not", "are not", "no longer", "doesn't", "don't", "won't", "can't",
-    "cannot", "isn't", "aren't", "never",
+    "does not", "do not", "will not", "could not", "is not", "are not", "no longer", "doesn't", "don't", "won't",
+    "can't", "cannot", "isn't", "aren't", "never",
 ))  # fmt: skip
 _WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "tick", "ticks", "ring", "rings"})
 """What a thing does wherever it stands: what follows is where it does not."""

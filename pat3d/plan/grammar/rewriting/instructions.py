@@ -66,6 +66,10 @@ _WORKING = frozenset({"wipe", "wash", "scrub", "rinse", "stir", "shake", "dump",
                       "arrange", "release", "wrap", "tie", "untie", "unstack", "lay", "transport", "return", "lean",
                       "slice", "heat", "cook", "mix", "scoop", "store", "distribute", "restock", "refill"})  # fmt: skip
 """Verbs that open a prompt before a bare noun, and describe none: "wipe plate with towel"."""
+_CLOTHS = ("towel", "dish towel", "sponge", "napkin", "brush", "tissue box", "mop", "broom", "paper towel")
+_BLADES = ("knife", "kitchen knife", "scissors", "fork", "spoon", "saw", "pizza cutter", "utility knife")
+_DONE_WITH = {**dict.fromkeys(("dry", "clean", "wipe"), _CLOTHS), "cut": _BLADES, "open": _BLADES}
+"""Verbs that are adjectives as well, and what it is done with where they are verbs before a bare noun."""
 _WITH_ANOTHER = frozenset({"wipe", "scrub", "rinse", "stir", "squeeze", "unfold", "pour", "unscrew", "unplug", "shake"})
 """Those that are never nouns, so that they follow another instruction: "pick up sponge and wipe shoe"."""
 FILLERS = frozenset({
@@ -321,7 +325,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     jotted = word == "plate" and link_at(tokens, at + 1) > 0
     if nouns.match([word, follower]) or jotted:
         return None
-    if follower in _PARTICLES and base in _SEPARABLE:
+    if (follower in _PARTICLES and base in _SEPARABLE) or (opening and not at and _is_done_with(tokens, nouns)):
         return at
     behind = tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS
     if follower in _PARTICLES and base in ("open", "close", "pull", "fold", "roll") and behind:
@@ -329,7 +333,8 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     turns = base in ("turn", "walk", "go", "step") and follower in ("left", "right", "around", "straight", "forward")
     if turns and (not opening or tokens[at].number == 1):
         return at
-    noun = not tokens[at + 1].mark and (is_modifier(follower) or nouns.match([follower]) is not None)
+    named = [[follower], [follower, tokens[min(at + 2, len(tokens) - 1)].text]]
+    noun = not tokens[at + 1].mark and (is_modifier(follower) or any(map(nouns.match, named)))
     known = noun or follower in lexicon.GENERICS or nouns.match([*follower.split("-")]) is not None
     if base in _CERTAIN and not tokens[at + 1].mark:
         return at
@@ -341,6 +346,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
         return at
     bare = base in ("stack", "open", "close", "sort", "pack", "push", "pull", "drop", "empty", "plate", "align", "add")
     working = word in _WORKING and nouns.match([word]) is None
+    known = known or follower in lexicon.SUBSTANCES
     bare, known = bare or working, known or (working and bool(nouns.respelled(follower)))
     if not opening and word in _WITH_ANOTHER and known and not tokens[at + 1].mark:
         return at
@@ -358,6 +364,15 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
             return None
         return at
     return None
+
+
+def _is_done_with(tokens: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `tokens` are "dry pan with tea towel", said of a deed; a dry pan with a lid is a thing."""
+    words = [token.text for token in tokens]
+    tool = words.index("with") + 1 if "with" in words[2:] else len(words)
+    end = next((n for n in range(tool, len(words)) if tokens[n].mark or words[n] == "and"), tool)
+    found = (nouns.match(words[n:end]) for n in range(tool, end))
+    return any(one is not None and nouns.of_class(one.noun, _DONE_WITH.get(words[0], ())) for one in found)
 
 
 def _after_actor(tokens: Sequence[Token], at: int) -> int:

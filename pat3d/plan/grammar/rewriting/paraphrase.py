@@ -292,6 +292,12 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
+        if token.text == "both" and follower in ("the", *lexicon.POSSESSIVES) and (end := _one(tokens, at + 2, nouns)):
+            # "Both the can by the box and the red jar": one can, told by the box.
+            link = LINKS.get(tuple(each.text for each in tokens[end : end + link_at(tokens, end)]))
+            that = ("that", "is") if link is not None and link.kind and not link.inverse else ()
+            rest = [*tokens[at + 1 : end], *(replace(tokens[end], text=word) for word in that), *tokens[end:]]
+            return [*kept, *_plain_words(rest, nouns)]
         verb = before in ("is", "are", "was", "were")
         if token.text == "out" and follower == "of" and (verb or _named_alone(kept, tokens[at + 2 :], nouns)):
             # "The dog is out of the box", "an apple out of a bowl": not in it.
@@ -327,6 +333,18 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             token = replace(token, text="bedside")
         kept.append(token)
     return kept
+
+
+def _one(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
+    """Where "can" or "red can" from token `at` on ends, which is one thing, told more of before an "and"; 0 without."""
+    words = [token.text for token in tokens]
+    spans = [(n, n + size) for n in range(at, min(at + 4, len(words) - 1)) for size in (3, 2, 1)]
+    named = (words[start:end] for start, end in spans)
+    known = (bool(nouns.match(each)) or (len(each) == 1 and each[0] in lexicon.SUBSTANCES) for each in named)
+    start, end = next((span for span, one in zip(spans, known, strict=True) if one), (0, 0))
+    found = nouns.match(words[start:end])
+    told = "and" in words[end + 1 :] and words[end] != "and" and not tokens[end].mark
+    return end * (told and not (found is not None and found.plural))
 
 
 def _relatives(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

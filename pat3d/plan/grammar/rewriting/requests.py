@@ -1,6 +1,6 @@
 """Requests for a thing: "give me the spoon", "I need the saw from the shelf" and "bring the cup here" are to fetch it.
 
-"Give me a red mug on a wooden table" and "I'd like the lamp on the desk" tell of a scene.
+"Give me a red mug on a wooden table" tells of a scene, and "I'd like the lamp on the desk" of a wanted state.
 """
 
 from __future__ import annotations
@@ -59,13 +59,13 @@ def requested(sentence: list[Token], alone: bool, nouns: Nouns) -> list[Token]:
     if not wish or len(named) < 2 or any(other):
         return sentence
     links = {named[n].text for n in linked if n < len(named)} - _WITHIN
-    definite = words[start] in _LEADS
+    definite = words[start] in _LEADS and words[end - 1] not in SWITCHED
     if definite and (wish in _GIVE or not links or lexicon.RELATIVES & {*words[start + 1 : end]}):
         return _fetch(sentence, sentence[start:-1] if words[end : end + 2] == [",", "not"] else named)
     # "Give me a spoon"; a table is a scene.
     thing = next((found for n in (3, 2, 1) if (found := nouns.match(words[max(end - n, start) : end]))), None)
     plain = thing is not None and not thing.plural and not nouns.of_class(thing.noun, lexicon.FLOOR)
-    single = words[start] in ("a", "an", "another") and not any(link_at(named, n) for n in range(len(named)))
+    single = words[start] in ("a", "an", "another") and not links - {"of"}
     return _fetch(sentence, named) if alone and plain and single else sentence
 
 
@@ -80,6 +80,12 @@ def held_over(sentence: list[Token]) -> list[list[Token]]:
         end = next(n for n in range(at, len(words)) if sentence[n].mark or words[n] in ("and", "then"))
         into = words[at] in _POURED or (words[at] in ("rinse", "wash", "dip", "soak") and at > 0)
         places = ("over", "above", "in", "on", "onto") if into else ("over", "above")
+        goal = next((n for n in range(at + 1, end) if words[n] in ("into", *places)), end)
+        source = next((n for n in range(goal, end) if words[n] == "from"), 0)
+        if words[at] in _POURED and source:
+            # "Pour milk into the cup from the jug": the cup is not from there.
+            kept = [*sentence[:goal], *sentence[source:end], *sentence[goal:source]]
+            return held_over([*kept, *sentence[end:]])
         over = next((n for n in range(end - 2, at + 1, -1) if words[n] in places and link_at(sentence, n) == 1), 0)
         over = 0 if any(link_at(sentence, n) for n in range(over + 1, end)) else over
         if not over or (words[over + 1] not in lexicon.DETERMINERS | lexicon.POSSESSIVES and end - over > 2):

@@ -55,7 +55,7 @@ def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
-    told = _conditions(brought_about(_labelled(parts)))
+    told = _conditions(brought_about(_labelled(parts), nouns))
     told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(_wherever(each))]
     told = [coloured_alike(each, nouns) for each in exceptions(_come_to_rest(told))]
     told = one_for_each(_reordered(told, nouns))

@@ -2,9 +2,9 @@
 
 "When you're done, the cubes must be in the box", "the book should be on the desk at the end" and "the mug should end up
 in the sink" tell how the scene is to be left, not how it begins. What opens such a sentence, or an instruction, is only
-that it comes later: "after all this, let's put the cup on the tray". Without a word of the end ("the mug should be on
-the tray") a wanted state is a deed only where the mug was told of before, at another place: a prompt that begins so
-describes its scene.
+that it comes later: "after all this, let's put the cup on the tray". Without a word of the end ("I want the mug on the
+tray", "the mug should be on the tray") a wanted state is a deed where the mug was told of before, at another place, or
+where the prompt tells of no scene: nothing but what is wanted and what is to be done.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb
+from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _DONE = r"(?:done|finished|finish|ready|complete|completed|over|through)"
 _WHAT = r"(?:all |everything )?(?:of )?(?:this|that|these|those|it|everything|all|you|we|i)"
@@ -63,22 +64,23 @@ _KEEPING = frozenset({"leave", "keep"})
 _EMPTIED = frozenset({"unload", "empty", "clear", "unpack", "everything", "all"})
 """What the things are in that are left elsewhere."""
 _LEADS = lexicon.DEFINITE | lexicon.POSSESSIVES | {"it", "they"}
-_MADE_UP = lexicon.NUMBERS.keys() | {"a", "an", "some"}
+_MADE_UP = (lexicon.NUMBERS.keys() - {"both"}) | {"a", "an", "some"}
 _SCENES = frozenset({"scene", "scenario", "image", "picture", "setup", "create", "generate"})
 
 
-def brought_about(told: list[list[Token]]) -> list[list[Token]]:
+def brought_about(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
     """The sentences `told` with what is to be in the end as what is to be done."""
     describes = _makes_up(told)
     sure = _told_sure if describes else _made_sure
     made: list[list[Token]] = []
+    wanted = all(known_verb(each[0].text) or _wants(each, nouns) for each in told)
     for sentence in told:
         before = {token.text for each in made for token in each}
         if stays := _left_there(sentence, told):
             made.append(stays)
             continue
         done = _ends_up(_in_the_end(_later(_alone(sentence))))
-        made.append(sure(done if describes else _moved(done, before)))
+        made.append(sure(done if describes else _moved(done, before, wanted=wanted)))
     return made
 
 
@@ -107,6 +109,16 @@ def _makes_up(told: Sequence[Sequence[Token]]) -> bool:
     words = [token.text for sentence in told for token in sentence]
     puts = any(known_verb(one) and two in _MADE_UP for one, two in zip(words, words[1:], strict=False))
     return puts or bool(_SCENES & {*words})
+
+
+def _wants(tokens: list[Token], nouns: Nouns) -> bool:
+    """Whether "I want the mug on the tray" is all that `tokens` say; where furniture is to stand is the scene."""
+    wished = _wished(tokens)
+    verb = next((at for at, token in enumerate(wished) if at and token.text in _VERBS), 0)
+    found = nouns.match([wished[verb - 1].text])
+    stands = wished[-2].text not in SWITCHED
+    furniture = stands and found is not None and nouns.of_class(found.noun, lexicon.FLOOR)
+    return bool(verb) and not furniture and (wished != tokens or _ought(tokens))
 
 
 def _later(tokens: list[Token]) -> list[Token]:
@@ -155,14 +167,21 @@ def _alone(tokens: list[Token]) -> list[Token]:
     return tokens[first:] if asked else tokens
 
 
-def _moved(tokens: list[Token], before: Collection[str]) -> list[Token]:
-    """Read "the pen should be in the mug" as "put the pen in the mug" where `before` tells that it is elsewhere."""
+def _moved(tokens: list[Token], before: Collection[str], *, wanted: bool) -> list[Token]:
+    """Read "the pen should be in the mug" as "put the pen in the mug" where `before` tells that it is elsewhere.
+
+    So is it where nothing but what is `wanted` is told.
+    """
     wished = _wished(tokens)
     words = [token.text for token in wished]
     verb = next((at for at, word in enumerate(words) if word in _GOES or word in _VERBS), 0)
     told = {"it", "they", *before} & {words[verb - 1], *singulars(words[verb - 1])} and _PLACED & {*before}
     where = {*words[verb + 1 :]}
-    if not told or not verb or not _PLACED & where or _PLACES & where:
+    if wanted and wished != tokens:
+        # "I want the mug, the pen and the cup on the tray" is one state.
+        done = _deeds(wished, tokens[0]) or _deed(wished[:-1], tokens[0])
+        return [*done, *wished[-1:] * (done[-1:] != wished[-1:])] if done else tokens
+    if not (told or wanted) or not verb or not _PLACED & where or _PLACES & where:
         return tokens
     if words[verb] in _GOES:
         wished[verb] = replace(wished[verb], text="is")
@@ -185,7 +204,11 @@ def _wished(tokens: list[Token]) -> list[Token]:
         made.append(replace(tokens[at], text="be") if goes else tokens[at])
     if len(made) > len(tokens) - size:
         return made
-    at = next((at for at in range(size + 2, len(tokens) - 2) if link_at(tokens, at)), 0)
+    ends = len(tokens) - 2
+    at = next((at for at in range(size + 2, ends) if link_at(tokens, at) and words[at] != "of"), 0)
+    at = at or ends * (words[ends] in SWITCHED)
+    # "I want the bottle placed on the shelf"
+    at -= bool(at) and (base_verb(words[at - 1]) or words[at - 1]) != words[at - 1] and words[at - 1].endswith("ed")
     said = [replace(tokens[at], text=word) for word in ("is", "to", "be")]
     return [*tokens[size:at], *said, *tokens[at:]] if at else tokens
 

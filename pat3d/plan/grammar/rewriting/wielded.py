@@ -55,7 +55,8 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         found = noun_of(words[leads:end], nouns)
         behind = words[end : end + 1]
         ends = not behind or behind[0] in ("to", "into", "onto", "towards", "toward", "and", "from", "off")
-        if words[at] == "using" and words[end - 1] in lexicon.GENERICS:
+        kinds = {words[leads], words[end - 1]} & lexicon.GENERICS.keys()
+        if words[at] == "using" and (kinds or (found is not None and ends)):
             return at, end
         if found is None or found.plural or not ends:
             continue
@@ -72,7 +73,7 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         tool = (verb in _WORKING | _TURNING or placed) and nouns.of_class(found.noun, _TOOLS)
         # "Pick up meat with spatula", and not "pick up plate with fork"
         bare = leads == at + 1 and carried and not any(link_at(body, n) for n in range(1, at))
-        if words[at] == "using" or ((taken or tool or picked) and not bare):
+        if (taken or tool or picked) and not bare:
             return at, end
     return 0, 0
 

@@ -16,7 +16,7 @@ POSTURE = (
     r"|bottom[ -]up|face[ -](?:down|up)|on end|upright|inverted|upturned"
     r"|right[ -]side[ -]up|(?:the )?right way up"
     r"|(?:lying|lies|lie|laid) down"
-    r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?: over)?"
+    r"|overturned|turned (?:over|upside down)|toppled(?: over)?|(?:tipped|knocked) over|flipped(?! open)(?: over)?"
     r"|tilted|slanted|sideways|diagonally|crosswise"
     # "Books stacked vertically" are in a stack.
     r"|(?<!stacked )(?<!arranged )(?<!aligned )(?<!up )vertically(?! (?:stacked|aligned|arranged|on top))"
