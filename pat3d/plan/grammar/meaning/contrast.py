@@ -9,7 +9,7 @@ from typing import cast
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.likes import SHAPES, measured
+from pat3d.plan.grammar.meaning.likes import SHAPES, compared_anew, measured
 from pat3d.plan.grammar.meaning.matching import colours_of, is_numbered, line_up, position
 from pat3d.plan.grammar.meaning.ones import coloured_like
 from pat3d.plan.grammar.meaning.pronouns import Pronouns
@@ -41,6 +41,8 @@ class Contrast(Pronouns):
         if ours.material and theirs.material and ours.material != theirs.material:
             return True
         if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
+            return True
+        if compared_anew(phrase, [item for item in self._world.items() if item.group.noun == group.noun]):
             return True
         if phrase.definite and any(self._is_just_that(other, group, phrase) for other in self._world.groups):
             return True
@@ -274,7 +276,9 @@ class Contrast(Pronouns):
         "Put the red cups on the tray and the others on the shelf": cups that are told by nothing. None where some of
         what was named are left; nothing where what was named is told from no others.
         """
-        moved = [head for one, _ in self.related for head in sorted(one) if head < at and self.known.get(head)]
+        # "Put the fork in the other": in no other fork.
+        told = [one for one, other in self.related if at not in other]
+        moved = [head for one in told for head in sorted(one) if head < at and self.known.get(head)]
         head = max((head for head in moved if self._chunks[head].named.kind == "object"), default=None)
         items = self.known[head] if head is not None else self._world.subject
         if head is None and (left := self._but_one_ahead(at, phrase, items)):

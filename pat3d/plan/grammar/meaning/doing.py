@@ -28,6 +28,7 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
+_OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -202,6 +203,9 @@ class Doing(Placing):
         if single and self._said.speaks_of_each(parent_heads):
             # "Place one fig from the box into each of two bowls"
             children = multiply(self._world, children, len(parents))
+        if len(children) > 1 == len(parents) and _OWN.search(self._clause.said) and self._said.speaks_of_each(child_heads):
+            # "Put each of the two apples on its own plate"
+            parents = multiply(self._world, parents, len(children))
         moved, goal = (" ".join(self._chunks[head].text for head in heads) for heads in (child_heads, parent_heads))
         part = f"{moved} {self._chunks[at].text} {goal}".strip()
         refuse_goal(self._clause.said, children, parents, moved, goal)

@@ -231,6 +231,9 @@ class Members(ByPlace):
             return told
         if rest and (left := self._left_over(at, phrase) or self._unplaced(groups, phrase)):
             return left
+        single = phrase.words.lower() in ("the other", "the other one")
+        if rest and single and (other := self._other_of_two(at, phrase)):
+            return other
         if rest and (told := self._untold(at, phrase)) is not None:
             return told
         count = phrase.count or 1

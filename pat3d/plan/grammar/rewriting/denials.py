@@ -218,22 +218,24 @@ def _none_behind(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Tol
 
 def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "nothing is on the plate" as "there is the plate", and "nobody is there, only a cup" as "a cup"."""
-    if words[0] not in _NOTHING:
+    opens = (n for n in range(2, len(words) - 3) if words[n] == "nothing" and words[n - 1] in ("and", "but", "while"))
+    first = 0 if words[0] in _NOTHING else next(opens, None)
+    if first is None:
         return None
-    if (found := _nothing_but(tokens, words)) is not None:
+    if not first and (found := _nothing_but(tokens, words)) is not None:
         return found, []
-    if words[1] == "else" or any(tuple(words[1 : 1 + len(said)]) == said for said in _BUT):
+    if words[first + 1] == "else" or any(tuple(words[first + 1 : first + 1 + len(said)]) == said for said in _BUT):
         return None
-    end = next(n for n in range(len(words)) if tokens[n].mark)
-    if words[end] == ",":
+    end = next(n for n in range(first, len(words)) if tokens[n].mark)
+    if not first and words[end] == ",":
         after = end + 1 + (words[end + 1] in ("only", "but"))
         return (list(tokens[after:]), [(tokens[0], tokens[end - 1])]) if words[after] in lexicon.DETERMINERS else None
-    link = next((n for n in range(1, end - 1) if link_at(tokens, n)), 0)
+    link = next((n for n in range(first + 1, end - 1) if link_at(tokens, n)), 0)
     the = max((n for n in range(link, end) if words[n] in lexicon.DETERMINERS | lexicon.POSSESSIVES), default=0)
-    if not link or not the or not nouns.match([words[end - 1]]):
+    if not link or not the or not (nouns.match([words[end - 1]]) or words[end - 1] in ("one", "other")):
         return None
-    there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
-    return [*there, *tokens[the:]], [(tokens[0], tokens[end - 1])]
+    there = [replace(tokens[first], text="there"), replace(tokens[first], text="is")]
+    return [*tokens[:first], *there, *tokens[the:]], [(tokens[first], tokens[end - 1])]
 
 
 def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | None:
