@@ -276,9 +276,10 @@ class Contrast(Pronouns):
         "Put the red cups on the tray and the others on the shelf": cups that are told by nothing. None where some of
         what was named are left; nothing where what was named is told from no others.
         """
-        # "Put the fork in the other": in no other fork.
-        told = [one for one, other in self.related if at not in other]
-        moved = [head for one in told for head in sorted(one) if head < at and self.known.get(head)]
+        moved = [head for one, _ in self.related for head in sorted(one) if head < at and self.known.get(head)]
+        by = {head for one, other in self.related if at in other for head in one}
+        # "Put the fork in the other": in no other fork; "put one brick on the other".
+        moved = [head for head in moved if head not in by or self._chunks[head].words[:1] == ("one",)]
         head = max((head for head in moved if self._chunks[head].named.kind == "object"), default=None)
         items = self.known[head] if head is not None else self._world.subject
         if head is None and (left := self._but_one_ahead(at, phrase, items)):
