@@ -209,6 +209,8 @@ class Asides(RelationWords):
             self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, other=True, definite=False))
         elif last.words == ("one",) and named:
             self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, kind="pronoun", head="another"))
+        elif last.phrase.words.lower() in ("the one", "the ones"):
+            self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, head="without"))
 
     def _more_follows(self, at: int) -> bool:
         """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""

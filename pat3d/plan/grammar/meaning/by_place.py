@@ -14,6 +14,7 @@ from pat3d.plan.grammar.meaning.unlike import from_the_front, one_of_unlike
 from pat3d.plan.grammar.rewriting.displaced import NEARNESS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
+from pat3d.scene.relations import SUPPORT_KINDS
 
 
 class ByPlace(Further):
@@ -80,6 +81,27 @@ class ByPlace(Further):
                 if len(pair) == 2 and items[0] in pair:
                     return [one for one in pair if one is not items[0]]
         return []
+
+    def _those_there(self, at: int, phrase: Phrase) -> list[Item]:
+        """What "the ones on the table" at chunk `at`, or "the one without", are of what a sentence before has named."""
+        world, behind = self._world, self._behind(at)
+        if phrase.words.lower() not in ("the one", "the ones"):
+            return []
+        items = [item for group in world.groups[: world.settled] if not group.replaced for item in group.items]
+        if phrase.head == "without":
+            likes = [item for item in items if sum(one.group.noun == item.group.noun for one in items) > 1]
+            bare = [item for item in likes if not any(edge.parent is item for edge in world.supports.values())]
+            there = bare if len(bare) < len(likes) else []
+        elif behind is not None and behind[0].kind in SUPPORT_KINDS:
+            name = behind[1].noun or behind[1].head
+            edges = {item: world.supports[item] for item in items if item in world.supports}
+            there = [item for item, edge in edges.items()
+                     if edge.kind == behind[0].kind and name in (edge.parent.group.noun, edge.parent.group.said)]  # fmt: skip
+        else:
+            return []
+        about = [item for item in there if world.subject and item.group.noun == world.subject[0].group.noun]
+        alike = [item for item in about or there if item.group.noun == (about or there)[0].group.noun]
+        return alike if phrase.words.lower() == "the ones" or len(alike) == 1 else []
 
     def _by_place(self, groups: Sequence[Group], phrase: Phrase) -> list[Item]:
         """Which of several that were named one by one a place tells: "a red cup and a blue cup ... the left cup"."""

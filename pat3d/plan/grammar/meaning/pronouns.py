@@ -27,6 +27,8 @@ _CARRIED = 0.6
 _PLURAL = frozenset({"them", "they", "these", "those", "their", "all", "each"})
 _SHUT = 1.3
 """Cost of something being inside what nothing is inside of."""
+_UPON = 1.2
+"""Cost of being on something that may be "on top of it"."""
 _STACKED = -0.1
 """Cost of being on a stack."""
 
@@ -107,7 +109,9 @@ class Pronouns:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
         phrase = self._chunks[at].named
         plural = phrase.head in _PLURAL
-        world_front = self._world.front if at in self.fronts else []
+        # "Under the lamp lies a map. A pen is on the map and next to it is a cup": not next to the lamp.
+        told = [item for key, items in self.known.items() if key < at for item in items]
+        world_front = self._world.front if at in self.fronts and {*told} <= {*self._world.front, *other} else []
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
@@ -186,6 +190,12 @@ class Pronouns:
             candidates.append((0.2 * rank + 0.3 * which, items))
         told = next((each for each in before if each), [])
         below = self._world.support(told[0]) if told and not (child or plural) else None
+        links = [piece.relation for piece in self._chunks[: at - 1] if piece.kind == "rel"]
+        within = bool(links) and links[-1].kind == "in" and links[-1].manner == "place"
+        if below is not None and within and link is not None and link.kind in LATERAL_KINDS:
+            # "A doll sits in a cart and a bear stands behind it": behind the cart.
+            figure = bool(other) and self._world.is_a(other[0], lexicon.FIGURES)
+            candidates.append((-1.5 if figure else -0.15, [below]))
         if below is not None and link is not None and link.kind in SUPPORT_KINDS and self._is_also(at):
             # "A cube is on a bench. A bottle is on it, too."
             candidates.append((-0.8, [below]))
@@ -233,6 +243,10 @@ class Pronouns:
                     cost -= 0.6
                 if items[0].group.height > 1 and link.kind == "on" and not child:
                     # "A stack of plates is on the desk. A cup is on top of it": what is stacked carries.
+                    likely = min(likely, _STACKED)
+                top = link.kind == "on" and not child and "top" in self._chunks[at - 1].words and items in before[:1]
+                if top and likely < _UPON:
+                    # "A coffee machine on the counter, a bag on top of it": few say it of a counter.
                     likely = min(likely, _STACKED)
                 # "A crate stands next to the bed, and a book lies on it": on what the clause before is about.
                 carries = (

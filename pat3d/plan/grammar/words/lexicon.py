@@ -363,7 +363,7 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
 PARTS_OF: dict[str, tuple[str, ...]] = {
     "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
     "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
-    "keyboard": ("laptop",), "lid": ("laptop", "piano", "grill", "toilet", "printer", "treasure chest"),
+    "keyboard": ("laptop",), "lid": ("laptop", "piano", "grill", "toilet", "printer", "treasure chest", "bin", "trash can"),
     "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
     "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
     "stand": ("globe", "monitor"), "flower": ("plant", "potted plant", "cactus", "tree", "bush"),
