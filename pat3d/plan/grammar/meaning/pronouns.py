@@ -136,7 +136,9 @@ class Pronouns:
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
-            candidates.append((-0.6 if which else -0.1, meant[-1]))
+            # "A ball is by the box, one is in it, one on it, and one behind it": by none of the balls.
+            again = meant[-2:] == [meant[-1]] * 2 and any(self._is_further(key) for key in self.known)
+            candidates.append((-0.8 if again else -0.6 if which else -0.1, meant[-1]))
         if link is not None and link.kind in LATERAL_KINDS and not (child or plural):
             # "A laptop is on a desk; to its right is a mouse, and behind it a lamp": behind the laptop.
             candidates.append((-0.2, self._told_by_its_side(at)))

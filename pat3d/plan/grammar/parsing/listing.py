@@ -88,7 +88,7 @@ class Listing(Goals):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
             mute = sum(self._says_nothing(head, rest.facts) for head in rest.heads)
             flags = first.flags | (rest.flags & {"finite"}) | {"told"} | ({"mute"} if mute else set())
-            cost += 0.8 * mute
+            cost += 0.8 * mute * (1 + all(map(self._the_one, rest.heads)))
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         aside = any(headless) and headless[0] and ";" in rest.joints
         alone = all(self._phrase(head).words.lower().startswith("one of ") for head in first.heads) and not any(
