@@ -94,9 +94,8 @@ class ByPlace(Further):
             there = bare if len(bare) < len(likes) else []
         elif behind is not None and behind[0].kind in SUPPORT_KINDS:
             name = behind[1].noun or behind[1].head
-            edges = {item: world.supports[item] for item in items if item in world.supports}
-            there = [item for item, edge in edges.items()
-                     if edge.kind == behind[0].kind and name in (edge.parent.group.noun, edge.parent.group.said)]  # fmt: skip
+            edges = [edge for item in items if (edge := world.supports.get(item)) and edge.kind == behind[0].kind]
+            there = [edge.child for edge in edges if name in (edge.parent.group.noun, edge.parent.group.said)]
         else:
             return []
         about = [item for item in there if world.subject and item.group.noun == world.subject[0].group.noun]

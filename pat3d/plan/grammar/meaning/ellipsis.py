@@ -59,7 +59,11 @@ def _one_more(chunks: Sequence[Chunk], known: Collection[Phrase], nouns: Nouns) 
         if not named or (several and not _does_alike(chunks, at)) or not told or _listed(chunks[:at]):
             continue
         again = any(one.head == "another" for one in before)
-        if chunks[at - 1].text == "," and not again and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2])):
+        if (
+            chunks[at - 1].text == ","
+            and not again
+            and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2]))
+        ):
             # "A bookshelf holds a book, one on the top shelf": that book.
             continue
         if chunks[at - 1].text == "," and follower.kind == "have" and not follower.relation.finite:

@@ -82,7 +82,7 @@ class Listing(Goals):
             # "A box holds three balls and one of the balls is red": no fourth.
             cost += 1.2
         # "Put the red cup and the one on the chair in the sink": both.
-        both = all(map(self._the_one, rest.heads)) and not ("finite" in first.flags | rest.flags)
+        both = all(map(self._the_one, rest.heads)) and "finite" not in first.flags | rest.flags
         both = both and mark == "&" and "placed" in rest.flags and not any(map(self._several, first.heads))
         if all(headless) and not both and not all(self._phrase(head).kind in HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.

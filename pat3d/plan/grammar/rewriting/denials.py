@@ -34,7 +34,6 @@ _ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "
 _OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
         ("but",), ("except",), ("save",), ("besides",), ("than",))  # fmt: skip
-_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
 
 
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
@@ -102,7 +101,7 @@ def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
             continue
         # "Out of paper", and no "out of the box"
         start, run_out = at + size, words[at] in ("out", "low", "short")
-        if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in _LEADS | lexicon.PRONOUNS):
+        if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in lexicon.LEADING | lexicon.PRONOUNS):
             continue
         behind = next(n for n in range(start, len(words)) if tokens[n].mark or link_at(tokens, n))
         part = {words[behind - 1], *singulars(words[behind - 1])} & (lexicon.PARTS | lexicon.PORTIONS)
@@ -246,7 +245,7 @@ def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | Non
          if tuple(words[n : n + len(said)]) == said and link), (0, 0))  # fmt: skip
     the = but + size
     place = tokens[link : but - (words[but - 1] == ",")]
-    counted = words[the] in _LEADS or words[the].isdecimal()
+    counted = words[the] in lexicon.LEADING or words[the].isdecimal()
     if not but or not counted or any(token.mark for token in (*tokens[:link], *place)):
         return None
     verb = next((n for n in range(the, len(words)) if words[n] in FINITE), 0)

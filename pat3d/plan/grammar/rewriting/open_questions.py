@@ -12,9 +12,7 @@ from pat3d.plan.grammar.rewriting.denials import Told
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Span, Token, singulars
-from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.number_words import numeral
+from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _NEGATIONS = frozenset({
@@ -56,23 +54,6 @@ def choice(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
         several, end = replace(tokens[head], text=plural(words[head])), head + 2 * bool(ranked)
         kept = [*tokens[:at], *said, *tokens[at + 1 : head], several, *tokens[end + 1 :]]
         return kept, [(tokens[at], tokens[end])]
-    return None
-
-
-def exception_at(tokens: Sequence[Token]) -> Span | None:
-    """Where "except the red one" and ", all but the blue one" stand in `tokens` of one sentence; None without."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 2):
-        pair = (words[at], words[at + 1]) in _EXCEPTIONS
-        counted = "be" in words or any(numeral(word) > 1 for word in words[:at])
-        if counted or words[at + 1] == "that" or not (pair or words[at] in ("except", "excluding")):
-            # "Five of the cups, all but the red one" may be five or six; what is "to be moved" would all be.
-            continue
-        start = at + (words[at + 1] == "but")
-        start = at - 1 if start > at and words[at - 1] == "," else start
-        ends = (n for n in range(at + 2, len(words)) if tokens[n].mark or words[n] in FINITE | lexicon.MODALS
-                or words[n] in ("into", "onto", "to", "goes", "go", "in"))  # fmt: skip
-        return start, next(ends)
     return None
 
 
