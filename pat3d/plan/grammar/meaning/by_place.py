@@ -14,7 +14,6 @@ from pat3d.plan.grammar.meaning.unlike import from_the_front, one_of_unlike
 from pat3d.plan.grammar.rewriting.displaced import NEARNESS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
-from pat3d.scene.relations import SUPPORT_KINDS
 
 
 class ByPlace(Further):
@@ -84,20 +83,15 @@ class ByPlace(Further):
 
     def _those_there(self, at: int, phrase: Phrase) -> list[Item]:
         """What "the ones on the table" at chunk `at`, or "the one without", are of what a sentence before has named."""
-        world, behind = self._world, self._behind(at)
+        world = self._world
         if phrase.words.lower() not in ("the one", "the ones"):
             return []
         items = [item for group in world.groups[: world.settled] if not group.replaced for item in group.items]
+        there = [item for item in items if self._is_there(at, item, held=True)]
         if phrase.head == "without":
             likes = [item for item in items if sum(one.group.noun == item.group.noun for one in items) > 1]
             bare = [item for item in likes if not any(edge.parent is item for edge in world.supports.values())]
             there = bare if len(bare) < len(likes) else []
-        elif behind is not None and behind[0].kind in SUPPORT_KINDS:
-            name = behind[1].noun or behind[1].head
-            edges = [edge for item in items if (edge := world.supports.get(item)) and edge.kind == behind[0].kind]
-            there = [edge.child for edge in edges if name in (edge.parent.group.noun, edge.parent.group.said)]
-        else:
-            return []
         about = [item for item in there if world.subject and item.group.noun == world.subject[0].group.noun]
         alike = [item for item in about or there if item.group.noun == (about or there)[0].group.noun]
         return alike if phrase.words.lower() == "the ones" or len(alike) == 1 else []

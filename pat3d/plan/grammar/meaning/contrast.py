@@ -179,10 +179,10 @@ class Contrast(Pronouns):
             return None
         return behind[0].relation, behind[1].named
 
-    def _is_there(self, at: int, item: Item) -> bool:
+    def _is_there(self, at: int, item: Item, *, held: bool = False) -> bool:
         """Whether `item` was told to stand where the relation right behind chunk `at` says."""
         behind, edge = self._behind(at), self._world.supports.get(item)
-        if behind is not None and self.asked and edge is not None and edge.kind == behind[0].kind:
+        if behind is not None and (self.asked or held) and edge is not None and edge.kind == behind[0].kind:
             # "Grab the one on the napkin": of two spoons the one that is there already.
             return (behind[1].noun or behind[1].head) in (edge.parent.group.noun, edge.parent.group.said)
         if behind is None or behind[0].kind not in LATERAL_KINDS:

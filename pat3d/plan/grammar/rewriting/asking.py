@@ -22,6 +22,7 @@ from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
+_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES
 _GREETING = lexicon.GREETINGS | {"there", "good", "morning"}
 _POLITE = tuple(sorted((tuple(said.split()) for said in (
     "would you mind", "do you mind", "would it be possible to", "would it be possible for you to", "is it possible to",
@@ -41,6 +42,7 @@ _TAKING = frozenset(
 _SAVING = frozenset({"except", "excluding", "but", "save", "apart"})
 _INTO = frozenset({"lower", "tidy", "clear", "scoop"})
 """Deeds by which something is put in or on what is said behind."""
+_PILES = frozenset({"stack", "pile", "tower", "column"})
 _RANKS = lexicon.LEVELS.keys() | {"middle", "second", "third"}
 _FROM = (("from", "the", "top", "of"), ("off", "the", "top", "of"), ("off", "of"), ("out", "of"), ("from",), ("off",),
          ("of",), ("in",))  # fmt: skip
@@ -71,7 +73,7 @@ def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[li
     for sentence in (each for one in for_each_arm(whole) for each in from_side(one, nouns)):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
         plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_making_room(_able(_politely(plain))))))))))
-        piled = bool(lexicon.TOWERS & {*before, *(token.text for each in made for token in each)})
+        piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
         for checked in _checked(plain):
             for each in _from_stack(checked, piled=piled):
                 made += _all_but(each)
@@ -110,7 +112,7 @@ def _inside(sentence: list[Token]) -> list[Token]:
 def _able(sentence: list[Token]) -> list[Token]:
     """Read "can the green book go between the two red ones" as "put the green book between the two red ones"."""
     words = [token.text for token in sentence]
-    if words[0] not in _ABLE or words[1] not in lexicon.DETERMINING:
+    if words[0] not in _ABLE or words[1] not in _LEADS:
         return sentence
     go = next((n for n in range(3, len(words) - 2) if words[n] == "go" or words[n : n + 2] in (
                ["be", "put"], ["be", "placed"], ["be", "moved"])), 0)  # fmt: skip
@@ -131,7 +133,7 @@ def _making_room(sentence: list[Token]) -> list[Token]:
     on = next((n for n in (2, 3) if words[n : n + 1] and words[n] in ("on", "in")), 0)
     by = words.index("by", 4) if room else 0
     verb = base_verb(words[by + 1]) if by else None
-    if not on or not verb or not words[by + 1].endswith("ing") or words[by + 2] not in lexicon.DETERMINING:
+    if not on or not verb or not words[by + 1].endswith("ing") or words[by + 2] not in _LEADS:
         return sentence
     to = next((n for n in range(by + 3, len(words)) if sentence[n].mark or link_at(sentence, n)), 0)
     source = [replace(sentence[on], text="from"), *sentence[on + 1 : by]]
@@ -152,7 +154,7 @@ def _emptied(sentence: list[Token]) -> list[Token]:
     end = next(
         (n for n in range(2 + size, len(words)) if sentence[n].mark or words[n] in ("and", "then", "to", "onto")), 0
     )
-    if not size or words[2 + size] not in lexicon.DETERMINING or not end or {"except", "but"} & {*words}:
+    if not size or words[2 + size] not in _LEADS or not end or {"except", "but"} & {*words}:
         return sentence
     if words[end] in ("to", "onto"):
         # "Move everything from the desk to the box": each of it goes there.
@@ -175,7 +177,7 @@ def _lowered(sentence: list[Token]) -> list[Token]:
         opens = (
             not at or sentence[at - 1].mark or words[at - 1] in ("and", "then", "please") or words[at - 1][-2:] == "ly"
         )
-        if words[at] in _INTO and opens and words[at + 1] in lexicon.DETERMINING | {"it", "them"}:
+        if words[at] in _INTO and opens and words[at + 1] in _LEADS | {"it", "them"}:
             ends = (n for n in range(at + 2, len(words)) if link_at(sentence, n) or words[n] in (".", ":"))
             if words[next(ends)] in ("in", "into", "on", "onto"):
                 return [*sentence[:at], replace(sentence[at], text="put"), *sentence[at + 1 :]]
@@ -188,7 +190,7 @@ def _cleared(sentence: list[Token]) -> list[Token]:
     by = words.index("by") if words[0] in ("clear", "empty") and "by" in words[2:6] else 0
     verb = base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None
     to = next((n for n in range(by + 3, len(words) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
-    if verb not in _TAKING or words[1] not in lexicon.DETERMINING or not to or sentence[to].mark:
+    if verb not in _TAKING or words[1] not in _LEADS or not to or sentence[to].mark:
         return sentence
     put, source = replace(sentence[0], text=verb), replace(sentence[0], text="from")
     return [put, *sentence[by + 2 : to], source, *sentence[1:by], *sentence[to:]]
@@ -247,7 +249,7 @@ def _stripped(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     of = words.index("of") if words[0] in ("strip", "clear", "rid") and "of" in words[2:] else 0
     end = next((n for n in range(of, len(words)) if sentence[n].mark or words[n] in _SAVING), len(words))
-    if not of or words[1] not in lexicon.DETERMINING or words[of + 1] not in lexicon.DETERMINING | lexicon.POSSESSIVES:
+    if not of or words[1] not in _LEADS or words[of + 1] not in _LEADS | lexicon.POSSESSIVES:
         return sentence
     remove, source = replace(sentence[0], text="remove"), replace(sentence[of], text="from")
     the = replace(sentence[of + 1], text="the")
@@ -258,7 +260,7 @@ def _before_that(sentence: list[Token]) -> list[Token]:
     """Read "before you put the fig in the box, ..." as "before putting the fig in the box, ...": not there yet."""
     words = [token.text for token in sentence]
     deed = words[:2] == ["before", "you"] and len(words) > 4 and base_verb(words[2]) == words[2]
-    return [sentence[0], *sentence[2:]] if deed and words[3] in lexicon.DETERMINING else sentence
+    return [sentence[0], *sentence[2:]] if deed and words[3] in _LEADS else sentence
 
 
 def _nothing_there(sentence: list[Token]) -> list[Token]:
@@ -275,7 +277,7 @@ def _nothing_there(sentence: list[Token]) -> list[Token]:
     if {"but", "except", "besides", "else", "than"} & {*words}:
         return sentence
     name = there + 2
-    if words[name] not in lexicon.DETERMINING or any(
+    if words[name] not in _LEADS or any(
         token.mark or link_at(sentence, name + n) for n, token in enumerate(sentence[name:-1])
     ):
         return sentence
@@ -286,7 +288,7 @@ def _nothing_there(sentence: list[Token]) -> list[Token]:
 def _checked(sentence: list[Token]) -> list[list[Token]]:
     """Tell "check whether the kettle is empty and put it on the stove" as "the kettle", "put it on the stove"."""
     words = [token.text for token in sentence]
-    asks = words[0] in ("check", "see", "test") and words[1] in ("whether", "if") and words[2] in lexicon.DETERMINING
+    asks = words[0] in ("check", "see", "test") and words[1] in ("whether", "if") and words[2] in _LEADS
     verb = next((n for n in range(4, len(words)) if words[n] in lexicon.COPULAS), 0) if asks else 0
     joint = next((n for n in range(verb + 2, len(words) - 2) if words[n] in ("and", "then", ",")), 0) if verb else 0
     while joint and words[joint] in ("and", "then", ","):
@@ -299,7 +301,7 @@ def _checked(sentence: list[Token]) -> list[list[Token]]:
 def _let(sentence: list[Token]) -> list[Token]:
     """Read "let the ball roll into the bucket" as "roll the ball into the bucket"."""
     words = [token.text for token in sentence]
-    if words[0] != "let" or words[1] not in lexicon.DETERMINING or words[2] in ("robot", "arm", "gripper"):
+    if words[0] != "let" or words[1] not in _LEADS or words[2] in ("robot", "arm", "gripper"):
         return sentence
     verb = next((n for n in range(3, min(6, len(words) - 2)) if base_verb(words[n]) == words[n]), 0)
     if not verb or any(token.mark or link_at(sentence, n) for n, token in enumerate(sentence[:verb])):
@@ -314,12 +316,7 @@ def _so_that(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     at = next((n for n in range(3, len(words) - 4) if words[n] in ("so", "such")), 0)
     it = at + 1 + (words[at + 1] == "that") if at else 0
-    if (
-        not at
-        or base_verb(words[0]) != words[0]
-        or words[1] not in lexicon.DETERMINING
-        or words[it] not in ("it", "they")
-    ):
+    if not at or base_verb(words[0]) != words[0] or words[1] not in _LEADS or words[it] not in ("it", "they"):
         return sentence
     base = base_verb(words[it + 1])
     plain = not any(token.mark or link_at(sentence, n) for n, token in enumerate(sentence[:at]))
@@ -344,12 +341,7 @@ def _from_stack(sentence: list[Token], *, piled: bool) -> list[list[Token]]:
         link = at + 3
         size = next((len(said) for said in _FROM if ranked and tuple(words[link : link + len(said)]) == said), 0)
         pile = link + size + 1
-        if (
-            not size
-            or pile >= len(words)
-            or words[pile] not in lexicon.TOWERS
-            or words[pile - 1] not in lexicon.DETERMINING
-        ):
+        if not size or pile >= len(words) or words[pile] not in _PILES or words[pile - 1] not in _LEADS:
             continue
         end = pile + 1
         of = words[end] == "of"
@@ -393,7 +385,7 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             if not size or words[but + size] not in lexicon.DEFINITE | lexicon.POSSESSIVES:
                 continue
             end = next(n for n in range(but + size + 1, len(words)) if sentence[n].mark or link_at(sentence, n)
-                       or (words[n] in ("and", "then") and words[n + 1] not in lexicon.DETERMINING))  # fmt: skip
+                       or (words[n] in ("and", "then") and words[n + 1] not in _LEADS))  # fmt: skip
             ones = {"one", "ones", *lexicon.NUMBERS} & {*words[but + size : end]}
             if ones or (words[at] == "all" and every == 1 == but - at):
                 return [sentence]

@@ -20,6 +20,7 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _BOTTLED = frozenset({"ketchup", "mustard", "mayonnaise", "vinegar"})
 """What is made in its bottle."""
+_LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
 _VARIED = frozenset({"other", "different", "various", "several", "identical", "separate", "exactly",
                      "following"})  # fmt: skip
 _MANY_COLOURED = frozenset({
@@ -108,7 +109,7 @@ def items_of(tokens: Sequence[Token]) -> list[Item]:
 def start_of(words: Sequence[str], end: int) -> int:
     """Where the phrase begins of which the noun ends before token `end`."""
     start = end
-    while start and (words[start - 1] in lexicon.LEADING | _VARIED | _MANY_COLOURED or is_modifier(words[start - 1])):
+    while start and (words[start - 1] in _LEADING | _VARIED | _MANY_COLOURED or is_modifier(words[start - 1])):
         start -= 1
     return start
 
@@ -116,7 +117,7 @@ def start_of(words: Sequence[str], end: int) -> int:
 def _described(words: Sequence[str], first: int) -> int:
     """Where the phrase begins of which the known words begin at `first`: "every organic" fruit, "kitchen" utensils."""
     word = words[first - 1] if first else "."
-    ends = first == 1 or looks_like_adjective(word) or (first > 1 and words[first - 2] in lexicon.LEADING)
+    ends = first == 1 or looks_like_adjective(word) or (first > 1 and words[first - 2] in _LEADING)
     if not ends or not word.isalpha() or word in ("and", "of", "with", "are", "is") or known_verb(word):
         return first
     return start_of(words, first - 1)
@@ -201,7 +202,7 @@ def joined(listed: Sequence[Item], definite: bool, mark: Token) -> list[Token]:
     made: list[Token] = []
     for n, item in enumerate(listed):
         article = replace(item[0], text="the" if definite else "a")
-        led = item[0].text in lexicon.LEADING
+        led = item[0].text in _LEADING
         plural = bool(singulars(item[-1].text))
         if led and definite and item[0].text in ("a", "an"):
             item = [article, *item[1:]]
@@ -236,7 +237,7 @@ def _with_heads(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "salt and pepper shakers" as "salt shakers and pepper shakers": salt is no thing of its own."""
     words = [token.text for token in tokens]
     for at in (n for n in range(1, len(words) - 3) if words[n] == "and" and words[n - 1] in lexicon.SUBSTANCES):
-        name = at + 1 + (words[at + 1] in lexicon.LEADING)
+        name = at + 1 + (words[at + 1] in _LEADING)
         head = tokens[min(name + 1, len(tokens) - 1)]
         # "A glass of wine and a wine bottle": the wine is in the glass.
         fills = words[at - 2] in ("of", "with")
@@ -262,7 +263,7 @@ def _all_alike(tokens: list[Token]) -> list[Token]:
         return tokens
     named = []
     for item in items_of(tokens[colon + 1 : -1]):
-        lead = next((n for n, token in enumerate(item) if token.text not in lexicon.LEADING), 0)
+        lead = next((n for n, token in enumerate(item) if token.text not in _LEADING), 0)
         named.append([*item[:lead], *told, *item[lead:]])
     where = next((n for n in range(1, verb) if link_at(tokens, n)), verb)
     are = [replace(tokens[verb], text="are")] if where < verb else []
@@ -276,9 +277,7 @@ def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:
         end = next((n for n in range(colon + 1, len(words)) if tokens[n].mark and words[n] != ","), len(words))
         listed = items_of(tokens[colon + 1 : end])
         start = next((n for n in range(colon - 1) if numeral(words[n]) == len(listed) > 1), None)
-        kinds = all(
-            len(item) <= 2 and item[0].text not in lexicon.LEADING and not singulars(item[-1].text) for item in listed
-        )
+        kinds = all(len(item) <= 2 and item[0].text not in _LEADING and not singulars(item[-1].text) for item in listed)
         kinds = kinds and not all(is_modifier(item[-1].text) for item in listed)
         if start is None or not kinds:
             continue
@@ -307,23 +306,23 @@ def _oranges(tokens: list[Token], nouns: Nouns) -> list[Token]:
             made[at] = replace(tokens[at], text="orange-colored")
     for at in (n for n in range(1, len(words) - 2) if words[n] == "orange" and words[n + 1] in (",", "and")):
         before = at
-        while before and (words[before - 1] in (",", "and") or words[before - 1] in lexicon.LEADING
+        while before and (words[before - 1] in (",", "and") or words[before - 1] in _LEADING
                           or is_colour_word(words[before - 1])):  # fmt: skip
             before -= 1
         led = items_of(tokens[before:at])
         alone = sum(len(item) <= 2 and is_colour_word(item[-1].text) for item in led)
         several = numeral(words[at - 1]) > 1
         after = at + 1
-        while words[after] in (",", "and") or words[after] in lexicon.LEADING:
+        while words[after] in (",", "and") or words[after] in _LEADING:
             after += 1
         coloured = False
         while after < len(words) - 1 and is_colour_word(words[after]):
             coloured, after = True, after + 1
-            while words[after] in (",", "and") or words[after] in lexicon.LEADING:
+            while words[after] in (",", "and") or words[after] in _LEADING:
                 after += 1
         named = coloured and not tokens[after].mark and nouns.match([words[after]]) is not None
         onward = words[at + 1 + (words[at + 1 : at + 3] == [",", "and"]) + 1]
-        fruit = words[at - 1] in COLOURS and onward in lexicon.LEADING
+        fruit = words[at - 1] in COLOURS and onward in _LEADING
         # "A green orange, a yellow mug": a fruit.
         if named and (alone or several) and not fruit:
             made[at] = replace(tokens[at], text="orange-colored")

@@ -51,8 +51,9 @@ from pat3d.plan.grammar.words.shapes import of_what
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
+_MIDDLES = ("centre", "center", "middle")
 _ITS: dict[tuple[str, str], tuple[str, ...]] = {
-    **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in lexicon.MIDDLES},
+    **{(near, part): ("in", "the", "middle", "of") for near in ("at", "in", "on") for part in _MIDDLES},
     **{(near, part): ("at", "the", "edge", "of") for near in ("at", "on", "along", "near") for part in ("edge", "rim")},
     **{(near, "side"): ("next", "to") for near in ("at", "by")},
     ("in", "midst"): ("next", "to"),

@@ -49,6 +49,7 @@ _SOME = frozenset({"them", "others", "rest", "other"})
 """Words for what was named before."""
 _GAPS = frozenset({"gap", "space", "distance", "room", "gaps", "spaces"})
 _SAYING = frozenset({"that", "which", "who"})
+_ANY = lexicon.DETERMINERS | lexicon.POSSESSIVES
 _ONE_MORE = frozenset({"a", "an", "another", *lexicon.NUMBERS})
 
 
@@ -122,7 +123,7 @@ class Remarks:
         counted = any(word in general or word.isdecimal() for word in words)
         return start < end and not counted and not any(at in self._named for at in range(start, end))
 
-    def _names_a_thing(self, start: int, end: int, leads: Collection[str] = lexicon.DETERMINING) -> bool:
+    def _names_a_thing(self, start: int, end: int, leads: Collection[str] = _ANY) -> bool:
         """Whether "a map" stands from token `start` up to `end`, which is no part, no place and no stuff."""
         for at in range(start, end):
             if self._words[at] not in leads or self._words[at + 1] == "other":

@@ -15,6 +15,7 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _NEAR = (("nearest", "to"), ("nearest",), ("closest", "to"), ("closest",))
 _FAR = (("farthest", "away", "from"), ("furthest", "away", "from"), ("farthest", "from"), ("furthest", "from"))
+_ROWS = frozenset({"row", "line"})
 _OF_ROWS = (("left", "of"), ("right", "of"), ("in", "front", "of"), ("behind",))
 _OTHER = {"left": "right", "right": "left"}
 _LONGEST = 3
@@ -24,7 +25,7 @@ _LONGEST = 3
 def at_row_ends(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a jar is left of a row of three cups. The one nearest the jar" as "... The leftmost one"."""
     words = [token.text for token in tokens]
-    row = next((n for n in range(1, len(words)) if words[n] in lexicon.ROWS and words[n - 1] == "a"), 0)
+    row = next((n for n in range(1, len(words)) if words[n] in _ROWS and words[n - 1] == "a"), 0)
     stop = next((n for n in range(row, len(words)) if words[n] == "."), 0) if row else 0
     counted = counted_in(words, stop, nouns) if stop else None
     if counted is None:
@@ -43,14 +44,7 @@ def _rows_by_name(tokens: Sequence[Token], stop: int, said: str, nouns: Nouns) -
     words = [token.text for token in tokens]
     for at, token in enumerate(tokens):
         whose = any(tuple(words[at - 1 - len(link) : at - 1]) == link for link in _OF_ROWS)
-        if (
-            at > stop
-            and token.text in lexicon.ROWS
-            and words[at - 1] == "the"
-            and whose
-            and plural
-            and words[at + 1] != "of"
-        ):
+        if at > stop and token.text in _ROWS and words[at - 1] == "the" and whose and plural and words[at + 1] != "of":
             made += [replace(token, text=word) for word in (*said.split()[:-1], plural)]
         else:
             made.append(token)

@@ -19,6 +19,7 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 _HAVING = (("consists", "of"), ("consisting", "of"), ("made", "up", "of"), ("has",), ("contains",), ("holds",),
            ("containing",), ("is", "made", "of"), ("consist", "of"), ("of",))  # fmt: skip
 _SIDES = ("end", "side")
+_ROWS = ("row", "line")
 _OPPOSITE = {("front", "back"): "in front of", ("back", "front"): "behind", ("first", "second"): "in front of"}
 """How the first row stands to the second."""
 
@@ -36,9 +37,7 @@ _ONE_EACH = (
 def _there_too(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
     """`tokens` with "there are two jars in a row and a cup on it" as "two jars in a row and a cup are on it"."""
     words = [token.text for token in tokens]
-    row = next(
-        (n for n in range(3, len(words) - 6) if words[n : n + 2] == ["in", "a"] and words[n + 2] in lexicon.ROWS), 0
-    )
+    row = next((n for n in range(3, len(words) - 6) if words[n : n + 2] == ["in", "a"] and words[n + 2] in _ROWS), 0)
     if words[:2] != ["there", "are"] or not row or words[row + 3] not in ("and", ",") or FINITE & {*words[2:]}:
         return tokens
     links = [n for n in range(2, len(words)) if n != row and link_at(tokens, n)]

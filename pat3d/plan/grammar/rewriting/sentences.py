@@ -43,6 +43,7 @@ _LADEN = frozenset({
 
 
 _HAD = ("of", "with")
+_COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
 
@@ -306,11 +307,7 @@ def _reordered(told: list[list[Token]], known: Nouns) -> list[list[Token]]:
             continue
         nouns = {guess for word in words[2:-1] for guess in (word, *singulars(word))} - lexicon.NUMBERS.keys()
         link = next((n for n in range(3, len(words)) if sentence[n].mark or link_at(sentence, n)), 3)
-        led = (
-            range(2, link)
-            if there
-            else [n for n in range(1, len(words)) if {*words[max(n - 3, 0) : n]} & lexicon.COUNTING]
-        )
+        led = range(2, link) if there else [n for n in range(1, len(words)) if {*words[max(n - 3, 0) : n]} & _COUNTING]
         ones = (guess for n in led for guess in (words[n], *singulars(words[n])))
         told_later = {one for one in ones if known.match([one])} - lexicon.NUMBERS.keys()
         told_later |= {words[n] for n in led if told_later & {*singulars(words[n])}}

@@ -22,6 +22,7 @@ _OUT = frozenset(
 _HELD = {"carried": "carries", "supported": "carries", "contained": "contains", "housed": "contains"}
 """What had something has it."""
 _DOWN = frozenset({"fall", "drop", "tumble"})
+_THINGS = frozenset({"thing", "things", "object", "objects", "item", "items"})
 _RANKS = frozenset({*ORDINALS, "last"})
 _LINES = frozenset({"line", "row", "stack", "pile", "series"})
 
@@ -65,7 +66,7 @@ def _happened(tokens: Sequence[Token]) -> list[Token]:
 def _only(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "the only thing on the bench is a cap" as "a cap is on the bench"."""
     words = [token.text for token in tokens]
-    if words[:2] != ["the", "only"] or words[2] not in lexicon.THINGS or not link_at(tokens, 3):
+    if words[:2] != ["the", "only"] or words[2] not in _THINGS or not link_at(tokens, 3):
         return tokens
     verb = next((n for n in range(4, len(words) - 2) if words[n] in lexicon.COPULAS), 0)
     end = next(n for n in range(3, len(words)) if tokens[n].mark)

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.words.links import WHICH_EDGE
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _NEAR = frozenset({"in", "at", "on", "near"})
+_MIDDLES = frozenset({"middle", "center", "centre"})
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
 """What may follow a place that nothing is said of, beside marks."""
@@ -48,7 +49,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         if at < 3 or not (bare and ends and _small(words[: lead - 1], nouns)):
             continue
-        owner = told if token.text in lexicon.MIDDLES | _RIMS else ""
+        owner = told if token.text in _MIDDLES | _RIMS else ""
         if not owner and token.text in _RIMS and len(level) == 1:
             owner = next(iter(level))
         if owner:
@@ -142,7 +143,7 @@ def _told(words: Sequence[str], nouns: Nouns) -> str:
     """The surface of which the sentence names the edge, a corner or the middle, where it is one; empty otherwise."""
     found = set()
     for at, word in enumerate(words[:-2]):
-        if word in lexicon.MIDDLES | _RIMS and words[at + 1] == "of":
+        if word in _MIDDLES | _RIMS and words[at + 1] == "of":
             start = at + 2 + (words[at + 2] in ("the", "a", "an"))
             found.add(_surface(words[start : start + 3], nouns))
     return found.pop() if len(found) == 1 else ""

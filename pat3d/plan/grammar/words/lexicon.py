@@ -46,11 +46,8 @@ DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", 
 DEMONSTRATIVES = frozenset({"that", "this"})
 """Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
-DETERMINING = DETERMINERS | POSSESSIVES
-LEADING = DETERMINING | NUMBERS.keys() | VAGUE.keys()
+LEADING = DETERMINERS | POSSESSIVES | NUMBERS.keys() | VAGUE.keys()
 COUNTING = NUMBERS.keys() | {"a", "an"}
-MIDDLES = frozenset({"middle", "center", "centre"})
-THINGS = frozenset({"thing", "things", "object", "objects", "item", "items"})
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
 RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
