@@ -287,3 +287,9 @@ def test_a_number_said_later_is_of_what_was_named(prompt, expected):
 )
 def test_nothing_is_there(prompt, expected):
     assert told(GrammarPlanner().plan(prompt)) == expected
+
+
+def test_the_first_step_is_named_where_the_second_is_no_task():
+    plan = GrammarPlanner().plan("The pens are in the cup. Get them and hang them on the hook.")
+    assert plan.task is None
+    assert 'not modelled: "Get them": no task does that.' in plan.notes
