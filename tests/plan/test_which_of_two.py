@@ -159,7 +159,7 @@ def test_the_bigger_one_is_another(prompt, expected):
             ),
         ),
         (
-            "A jar is on the shelf. Two more are on a desk. The one on the shelf is red. The ones on the desk are blue.",
+            "A jar is on a shelf. Two more are on a desk. The one on the shelf is red. The ones on the desk are blue.",
             (
                 "red jar, shelf, blue jar 1, blue jar 2, desk",
                 "red jar on shelf, blue jar 1 on desk, blue jar 2 on desk",

@@ -247,9 +247,9 @@ class Pronouns:
                     # "A stack of plates is on the desk. A cup is on top of it": what is stacked carries.
                     likely = min(likely, _STACKED)
                 top = link.kind == "on" and not child and "top" in self._chunks[at - 1].words and items in before[:1]
-                if top and likely < _UPON:
-                    # "A coffee machine on the counter, a bag on top of it": few say it of a counter.
-                    likely = min(likely, _STACKED)
+                if top and likely < _UPON and items[0].group.noun != other[0].group.noun:
+                    # "A coffee machine on the counter, a bag on top of it": few say it of a counter, but one may.
+                    likely = min(likely, (_CARRIED + _CLOSE) / 2)
                 # "A crate stands next to the bed, and a book lies on it": on what the clause before is about.
                 carries = (
                     not (child or near) and link.kind in SUPPORT_KINDS and items in before[:1] and likely < _CARRIED
