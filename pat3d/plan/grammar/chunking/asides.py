@@ -173,6 +173,8 @@ class Asides(RelationWords):
         found = denied(self._tokens, self._at, self._phrases.read) if named else Denied(end=self._at + 1)
         end = found.end
         told = self._last is not None and self._last.kind == "there" and self._more_follows(end)
+        # "A mug without a handle on a plate", "which has no handle on a plate": the mug is on the plate.
+        own = self._word(0) == "without" or (self._last is not None and self._last.kind == "have")
         pronoun = False
         while not told and not pronoun and (size := link_at(self._tokens, end)):
             more = self._phrases.read(end + size)
@@ -180,8 +182,7 @@ class Asides(RelationWords):
             if pronoun and self._word(0) == "without" and self._tokens[end].text not in ("on", "in", "inside", "with"):
                 # "A glass without juice next to it": the glass is.
                 break
-            if (more is None or self._word(0) == "without") and not pronoun:
-                # "A mug without a handle on a plate": the mug is on the plate.
+            if (more is None or own) and not pronoun:
                 break
             end = more[1] if more is not None else end + size + 1
         denying = (self._nouns.match([token.text]) for token in self._tokens[self._at + 1 : end])
@@ -193,6 +194,8 @@ class Asides(RelationWords):
                 self._made.chunks[n] = replace(chunk, phrase=replace(chunk.named, cycle=left))
         if self._last is not None and self._last.kind in ("have", "there"):
             self._made.chunks.pop()
+            if self._last is not None and self._last.kind == "which":
+                self._made.chunks.pop()
         elif self._last is not None and self._word(0) == "without":
             self._tell_apart()
         if found.doubtful is not None:
@@ -213,6 +216,8 @@ class Asides(RelationWords):
             self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, other=True, definite=False))
         elif last.words == ("one",) and named:
             self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, kind="pronoun", head="another"))
+        elif last.phrase.words.lower() in ("the one", "the ones"):
+            self._made.chunks[-1] = replace(last, phrase=replace(last.phrase, head="without"))
 
     def _more_follows(self, at: int) -> bool:
         """Whether something is named after the next comma or "but": "there is no lamp on the desk, only a book"."""

@@ -19,9 +19,10 @@ _SUPPORTING = (
     "suitcase", "notebook", "magazine", "bread", "burger", "sandwich", "cube", "printer", "microwave", "speaker", "can",
     "cylinder", "plank", "cardboard sheet", "towel", "napkin", "steak", "cookie", "waffle", "storage box",
     "wood block", "toy brick", "jenga block", "stack of paper", "dresser", "toolbox", "cracker box",
-    "treasure chest", "cardboard box", "paint can", "newspaper", "mouse pad",
+    "treasure chest", "cardboard box", "paint can", "newspaper", "mouse pad", "scale", "kitchen scale",
 )  # fmt: skip
 """Flat enough to carry one thing, besides furniture and dishes."""
+_PANS = ("pan", "frying pan", "skillet", "griddle")
 
 
 _CLOSED_BY_LIDS = ("bottle", "teapot", "kettle", "thermos", "canister", "cookie jar", "water bottle", "can", "carton",
@@ -108,7 +109,8 @@ class Plausible:
             return 0.2
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
-        if self.is_a(parent, _SUPPORTING) or self.tops(child, parent):
+        panned = self.is_a(parent, _PANS) and self._fits_dish(child)
+        if self.is_a(parent, _SUPPORTING) or self.tops(child, parent) or panned:
             return 0.3
         if self.is_a(parent, lexicon.ROUND, lexicon.SLENDER) and child != parent:
             return 2.2

@@ -58,6 +58,44 @@ class ByPlace(Further):
             line_up(self._world, item)
         return [item]
 
+    def _other_of_two(self, at: int, phrase: Phrase) -> list[Item]:
+        """What "the other" at chunk `at` is of two of a kind, of which one was spoken of last: of mugs, and no spoon.
+
+        "Put the red mug on the shelf and the spoon in the other."
+        """
+        pairs = [(one, other) for one, other in self.related if at in one | other]
+        beside = {head for one, other in pairs for head in one | other}
+        landmark = any(at in other for _, other in pairs)
+        sides = {head for one, other in self.related for head in (other if landmark else one)}
+        heads = sorted((head for head in self.known if head < at and head not in beside), reverse=True)
+        heads.sort(key=lambda head: head not in sides)
+        steps = [list(step.items) for step in self._world.steps[-1:]]
+        apart = {item.group.noun for head in beside - {at} for item in self.known.get(head, ())}
+        for items in (*(self.known[head] for head in heads), *steps, self._world.subject):
+            if len(items) != 1 or items[0].group.noun in apart or items[0].group.height > 1:
+                continue
+            name = items[0].group.said.split()[-1:]
+            alike = [one for one in self._world.items() if one.group.said.split()[-1:] == name]
+            for pair in (alike, self._world.together):
+                if len(pair) == 2 and items[0] in pair:
+                    return [one for one in pair if one is not items[0]]
+        return []
+
+    def _those_there(self, at: int, phrase: Phrase) -> list[Item]:
+        """What "the ones on the table" at chunk `at`, or "the one without", are of what a sentence before has named."""
+        world = self._world
+        if phrase.words.lower() not in ("the one", "the ones"):
+            return []
+        items = [item for group in world.groups[: world.settled] if not group.replaced for item in group.items]
+        there = [item for item in items if self._is_there(at, item, held=True)]
+        if phrase.head == "without":
+            likes = [item for item in items if sum(one.group.noun == item.group.noun for one in items) > 1]
+            bare = [item for item in likes if not any(edge.parent is item for edge in world.supports.values())]
+            there = bare if len(bare) < len(likes) else []
+        about = [item for item in there if world.subject and item.group.noun == world.subject[0].group.noun]
+        alike = [item for item in about or there if item.group.noun == (about or there)[0].group.noun]
+        return alike if phrase.words.lower() == "the ones" or len(alike) == 1 else []
+
     def _by_place(self, groups: Sequence[Group], phrase: Phrase) -> list[Item]:
         """Which of several that were named one by one a place tells: "a red cup and a blue cup ... the left cup"."""
         world, where = self._world, position(phrase)

@@ -9,7 +9,7 @@ from typing import cast
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.likes import SHAPES, measured
+from pat3d.plan.grammar.meaning.likes import SHAPES, compared_anew, measured
 from pat3d.plan.grammar.meaning.matching import colours_of, is_numbered, line_up, position
 from pat3d.plan.grammar.meaning.ones import coloured_like
 from pat3d.plan.grammar.meaning.pronouns import Pronouns
@@ -41,6 +41,8 @@ class Contrast(Pronouns):
         if ours.material and theirs.material and ours.material != theirs.material:
             return True
         if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
+            return True
+        if compared_anew(phrase, [item for item in self._world.items() if item.group.noun == group.noun]):
             return True
         if phrase.definite and any(self._is_just_that(other, group, phrase) for other in self._world.groups):
             return True
@@ -177,10 +179,10 @@ class Contrast(Pronouns):
             return None
         return behind[0].relation, behind[1].named
 
-    def _is_there(self, at: int, item: Item) -> bool:
+    def _is_there(self, at: int, item: Item, *, held: bool = False) -> bool:
         """Whether `item` was told to stand where the relation right behind chunk `at` says."""
         behind, edge = self._behind(at), self._world.supports.get(item)
-        if behind is not None and self.asked and edge is not None and edge.kind == behind[0].kind:
+        if behind is not None and (self.asked or held) and edge is not None and edge.kind == behind[0].kind:
             # "Grab the one on the napkin": of two spoons the one that is there already.
             return (behind[1].noun or behind[1].head) in (edge.parent.group.noun, edge.parent.group.said)
         if behind is None or behind[0].kind not in LATERAL_KINDS:
@@ -275,6 +277,9 @@ class Contrast(Pronouns):
         what was named are left; nothing where what was named is told from no others.
         """
         moved = [head for one, _ in self.related for head in sorted(one) if head < at and self.known.get(head)]
+        by = {head for one, other in self.related if at in other for head in one}
+        # "Put the fork in the other": in no other fork; "put one brick on the other".
+        moved = [head for head in moved if head not in by or self._chunks[head].words[:1] == ("one",)]
         head = max((head for head in moved if self._chunks[head].named.kind == "object"), default=None)
         items = self.known[head] if head is not None else self._world.subject
         if head is None and (left := self._but_one_ahead(at, phrase, items)):

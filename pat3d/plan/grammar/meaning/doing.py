@@ -28,7 +28,8 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
-_ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
+_OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
+ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
 
@@ -207,6 +208,13 @@ class Doing(Placing):
         if single and self._said.speaks_of_each(parent_heads):
             # "Place one fig from the box into each of two bowls"
             children = multiply(self._world, children, len(parents))
+        if (
+            len(children) > 1 == len(parents)
+            and _OWN.search(self._clause.said)
+            and self._said.speaks_of_each(child_heads)
+        ):
+            # "Put each of the two apples on its own plate"
+            parents = multiply(self._world, parents, len(children))
         moved, goal = (" ".join(self._chunks[head].text for head in heads) for heads in (child_heads, parent_heads))
         part = f"{moved} {self._chunks[at].text} {goal}".strip()
         refuse_goal(self._clause.said, children, parents, moved, goal)
@@ -217,7 +225,7 @@ class Doing(Placing):
             link = Link(kind="hangs_from")
         if link.manner == "half" and link.side != "centre" and parents and self._world.is_a(parents[0], lexicon.LEVEL):
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
-        ends = any(phrase.part in _ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
+        ends = any(phrase.part in ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
         along = link.kind == "on" and bool(lexicon.DIRECTIONS & {*self._clause.said.lower().split()})
         if self._clause.verb in _SLIDING and level and (ends or along or link.says == "across"):
             # "Slide the plate to the edge of the table", "slide it forward on the table": it is on the table.

@@ -60,7 +60,12 @@ def _one_more(chunks: Sequence[Chunk], known: Collection[Phrase], nouns: Nouns) 
         told = chunks[at - 1].kind == "there" or any(one.kind in _SAID for one in chunks[:at])
         if not named or (several and not _does_alike(chunks, at)) or not told or _listed(chunks[:at]):
             continue
-        if chunks[at - 1].text == "," and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2])):
+        again = any(one.head == "another" for one in before)
+        if (
+            chunks[at - 1].text == ","
+            and not again
+            and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2]))
+        ):
             # "A bookshelf holds a book, one on the top shelf": that book.
             continue
         if chunks[at - 1].text == "," and follower.kind == "have" and not follower.relation.finite:
@@ -88,7 +93,7 @@ def _does_alike(chunks: Sequence[Chunk], at: int) -> bool:
 
 def _listed(chunks: Sequence[Chunk]) -> bool:
     """Whether `chunks` tell of two together, of which one may be meant: "a pen and a book are on the desk"."""
-    kinds = [one.kind for one in chunks]
+    kinds = ["one" if one.text.lower() == "one" else one.kind for one in chunks]
     return any(kinds[n : n + 3] == ["noun", "joint", "noun"] for n in range(len(kinds)))
 
 

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
 from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
+from pat3d.plan.grammar.meaning.doing import ENDS
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position
@@ -32,8 +33,6 @@ _FINDING = frozenset({"open", "close", "shut", "go", "navigate", "walk", "touch"
 """Verbs after which "with" tells which thing is meant, and not what it is done with."""
 _ROLLING = frozenset({"roll", "squeeze", "bounce", "drive", "steer", "wheel", "spin"})
 """Verbs by which a thing comes to be beside another."""
-_ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
-"""Parts to which nothing is related: the whole is taken."""
 
 
 class Interpreter(Holding):
@@ -332,7 +331,7 @@ class Interpreter(Holding):
             return
         if link.kind in LATERAL_KINDS or link.manner == "between":
             for place in places:
-                if place is not None and place.part in _ENDS:
+                if place is not None and place.part in ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         below = self._world.is_table(parents[0]) and not self._world.on_floor(children[0])
         if link.says == "across" and self._chunks[at - 1].text == "facing" and len(children) == 2 and not below:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.modifiers import Modifiers, is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -20,6 +21,7 @@ SHAPES = lexicon.HONOURED - {
     "lit", "burning", "flickering", "landscape", "striped", "open", "opened", "closed", "shut"
 }  # fmt: skip
 """Adjectives of measure that a thing is told from its like by."""
+_COMPARED = frozenset({"larger", "bigger", "smaller", "taller", "shorter"})
 
 
 def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]) -> list[Chunk]:
@@ -130,6 +132,15 @@ def _apart(kind: str, value: set[str], words: Modifiers) -> bool:
     if _property(words) != kind or _value(words) & value:
         return False
     return kind != "looks" or any(pair & value and pair & _value(words) for pair in lexicon.OPPOSITES)
+
+
+def compared_anew(phrase: Phrase, likes: Sequence[Item]) -> bool:
+    """Whether `phrase` is "the bigger ring" behind "put the ring on the peg": another than the only one of `likes`."""
+    compared = {phrase.modifiers.size_word, *phrase.modifiers.adjectives} & _COMPARED
+    if not compared or phrase.plural or len(likes) != 1:
+        return False
+    own = (likes[0].group.modifiers, likes[0].told)
+    return not any(words.size_word or words.adjectives for words in own)
 
 
 def measured(words: Modifiers) -> Modifiers:

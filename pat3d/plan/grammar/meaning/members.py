@@ -151,6 +151,8 @@ class Members(ByPlace):
         if phrase.definite and not phrase.plural and (there := self._told_by_side(at)):
             # "A cup behind the plate and a cup behind the jar. The one behind the plate is red."
             return there
+        if (there := self._those_there(at, phrase)) or phrase.head == "without":
+            return there
         if phrase.words.lower() == "the one" and (carrier := self._other_carrier(at, phrase)):
             return carrier
         counted = phrase.definite and phrase.count is not None and len(phrase.words.split()) == 2
@@ -226,6 +228,9 @@ class Members(ByPlace):
             return told
         if rest and (left := self._left_over(at, phrase) or self._unplaced(groups, phrase)):
             return left
+        single = phrase.words.lower() in ("the other", "the other one")
+        if rest and single and (other := self._other_of_two(at, phrase)):
+            return other
         if rest and (told := self._untold(at, phrase)) is not None:
             return told
         count = phrase.count or 1
@@ -307,16 +312,18 @@ class Members(ByPlace):
             if len(first) == 1 == len(first[0].group.items):
                 # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
                 return self._one_like(first, phrase)
-        for shape in {*measured(words).adjectives} & SHAPES:
+        wanted = len(self._world.items()) if phrase.closing == "ones" else 1
+        for shape in {*measured(words).adjectives} & SHAPES if phrase.definite else ():
             # "A tall vase and a short vase, the shorter one"
-            for item in self._world.items() if phrase.definite else ():
-                if shape in (*item.told.adjectives, *item.group.modifiers.adjectives):
-                    return [item]
+            own = [item for item in self._world.items()
+                   if shape in (*item.told.adjectives, *item.group.modifiers.adjectives)]  # fmt: skip
+            if own:
+                return own[:wanted]
         if words.size_word and not words.colours:
-            for item in (item for group in groups for item in group.items):
-                size = item.told.size_word or item.group.modifiers.size_word
-                if size and size in _LARGER | _SMALLER and (size in _LARGER) == (words.size_word in _LARGER):
-                    return [item]
+            sizes = {item: item.told.size_word or group.modifiers.size_word for group in groups for item in group.items}
+            alike = next((kind for kind in (_LARGER, _SMALLER) if words.size_word in kind), frozenset[str]())
+            if own := [item for item, size in sizes.items() if size in alike]:
+                return own[:wanted]
             groups = [group for group in groups if len(group.items) > 1]
             apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
             if apart and len(apart) == len(groups):

@@ -28,6 +28,8 @@ _CARRIED = 0.6
 _PLURAL = frozenset({"them", "they", "these", "those", "their", "all", "each"})
 _SHUT = 1.3
 """Cost of something being inside what nothing is inside of."""
+_UPON = 1.2
+"""Cost of being on something that may be "on top of it"."""
 _STACKED = -0.1
 """Cost of being on a stack."""
 
@@ -108,7 +110,9 @@ class Pronouns:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
         phrase = self._chunks[at].named
         plural = phrase.head in _PLURAL
-        world_front = self._world.front if at in self.fronts else []
+        # "Under the lamp lies a map. A pen is on the map and next to it is a cup": not next to the lamp.
+        told = [item for key, items in self.known.items() if key < at for item in items]
+        world_front = self._world.front if at in self.fronts and {*told} <= {*self._world.front, *other} else []
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
@@ -133,7 +137,9 @@ class Pronouns:
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
         if meant and not plural:
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
-            candidates.append((-0.6 if which else -0.1, meant[-1]))
+            # "A ball is by the box, one is in it, one on it, and one behind it": by none of the balls.
+            again = meant[-2:] == [meant[-1]] * 2 and any(self._is_further(key) for key in self.known)
+            candidates.append((-0.8 if again else -0.6 if which else -0.1, meant[-1]))
         if link is not None and link.kind in LATERAL_KINDS and not (child or plural):
             # "A laptop is on a desk; to its right is a mouse, and behind it a lamp": behind the laptop.
             candidates.append((-0.2, self._told_by_its_side(at)))
@@ -191,6 +197,12 @@ class Pronouns:
             candidates.append((0.2 * rank + 0.3 * which, items))
         told = next((each for each in before if each), [])
         below = self._world.support(told[0]) if told and not (child or plural) else None
+        links = [piece.relation for piece in self._chunks[: at - 1] if piece.kind == "rel"]
+        within = bool(links) and links[-1].kind == "in" and links[-1].manner == "place"
+        if below is not None and within and link is not None and link.kind in LATERAL_KINDS:
+            # "A doll sits in a cart and a bear stands behind it": behind the cart.
+            figure = bool(other) and self._world.is_a(other[0], lexicon.FIGURES)
+            candidates.append((-1.5 if figure else -0.15, [below]))
         if below is not None and link is not None and link.kind in SUPPORT_KINDS and self._is_also(at):
             # "A cube is on a bench. A bottle is on it, too."
             candidates.append((-0.8, [below]))
@@ -245,6 +257,10 @@ class Pronouns:
                 if items[0].group.height > 1 and link.kind == "on" and not child:
                     # "A stack of plates is on the desk. A cup is on top of it": what is stacked carries.
                     likely = min(likely, _STACKED)
+                top = link.kind == "on" and not child and "top" in self._chunks[at - 1].words and items in before[:1]
+                if top and likely < _UPON and items[0].group.noun != other[0].group.noun:
+                    # "A coffee machine on the counter, a bag on top of it": few say it of a counter, but one may.
+                    likely = min(likely, (_CARRIED + _CLOSE) / 2)
                 # "A crate stands next to the bed, and a book lies on it": on what the clause before is about.
                 carries = (
                     not (child or near) and link.kind in SUPPORT_KINDS and items in before[:1] and likely < _CARRIED

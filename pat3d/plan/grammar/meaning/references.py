@@ -112,6 +112,7 @@ class References(Members):
         if (
             one := self._any_of(at, phrase)
             or self._of_those(at, phrase)
+            or self._counted_late(at, phrase)
             or self._told_by_looks(at, phrase)
             or self._again(at, phrase)
             or of_kind(phrase, world.groups[: world.settled], self.left)

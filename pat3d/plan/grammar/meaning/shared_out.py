@@ -45,6 +45,24 @@ class SharedOut(Contrast):
         self._world.telling = items[phrase.count :]
         return items[: phrase.count]
 
+    def _counted_late(self, at: int, phrase: Phrase) -> list[Item] | None:
+        """All of "a stack of coins", of which "there are ten coins" tells the number; None where it is no such."""
+        world, words = self._world, phrase.words.lower().split()
+        groups = [group for group in world.groups[: world.settled] if group.noun == phrase.noun]
+        there = at == 1 and self._chunks[0].kind == "there" and not self._chunks[2:] and words[1:] == [phrase.head]
+        if not there or not groups or groups[-1].counted or groups[-1].exact or not phrase.count:
+            return None
+        group = groups[-1]
+        edge, formed = world.supports.get(group.items[0]), [one for one in world.arranged if one.items == group.items]
+        group.height = phrase.count if group.height > 1 else 1
+        recount(world, group, phrase.count)
+        group.counted = group.exact = True
+        for one in formed:
+            one.items = list(group.items)
+        if edge is not None:
+            world.place(group.items, edge.kind, [edge.parent], edge.weak)
+        return list(group.items)
+
     def _told_by_looks(self, at: int, phrase: Phrase) -> list[Item] | None:
         """Those of "books" in a sentence before that "a red book" at chunk `at` speaks of; None where it is one more.
 

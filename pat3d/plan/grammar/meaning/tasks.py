@@ -84,6 +84,10 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         picked = [step for step in steps if step.manner == "pick" and step not in wanted and not _is_put(step, steps)]
         picks = (_specs(step, world, names) for step in picked)
         specs = next((made for made in picks if made), [])
+        if not specs:
+            # "Get the keys and hang them on the hook"
+            begun_by = [step for step in steps if step.manner == "pick" and step.items and step not in wanted]
+            notes += [f'not modelled: "{step.said}": no task does that.' for step in begun_by]
     specs = list(dict.fromkeys(specs))
     if len(specs) < STEPS[0]:
         return (specs[0] if specs else None), notes

@@ -85,6 +85,10 @@ class Goals(Having):
         cost += (0.2 + 0.6 * (aside or bare) + 0.3 * there) * (link.manner == "with")
         cost += 0.6 * any(fact[0] == "rel" and self._link(fact[1]).manner == "source" for fact in modifier.facts)
         cost += _CRAMPED * (self._tells_where(at) and any(map(self._crowds, modifier.facts)))
+        # "The cup on the tray and the one on the chair under the lamp": "on the chair" tells which one.
+        placed = {head for fact in named.facts if fact[0] in ("rel", "have") for head in fact[2]}
+        ones = {head for head in (*placed, *named.heads) if self._the_one(head)}
+        cost += 0.9 * bool(ones - placed or (ones and placed - ones) or ones - {*named.heads})
         # What is told of with the object itself keeps near to it.
         cost += 0.15 * ("modified" in named.flags)
         # "The red cup on the tray and the blue one on the shelf": the blue one is moved too.
@@ -119,6 +123,10 @@ class Goals(Having):
     def _told_from_its_like(self, heads: tuple[int, ...]) -> bool:
         """Whether `heads` are "the blue one" or "the other": one more of what was named before."""
         return all(self._phrase(head).kind == "pieces" and self._phrase(head).determined for head in heads)
+
+    def _the_one(self, head: int) -> bool:
+        """Whether `head` is "the one" or "the ones", which something is to tell."""
+        return self._phrase(head).words.lower() in ("the one", "the ones")
 
     def _is_like(self, heads: tuple[int, ...], moved: tuple[int, ...]) -> bool:
         """Whether `heads` are "the other cups" beside which a cup, `moved`, is to go."""

@@ -81,11 +81,14 @@ class Listing(Goals):
         if "finite" not in rest.flags and any(map(self._named_in_full, rest.heads)):
             # "A box holds three balls and one of the balls is red": no fourth.
             cost += 1.2
-        if all(headless) and not all(self._phrase(head).kind in HEADLESS for head in first.heads):
+        # "Put the red cup and the one on the chair in the sink": both.
+        both = all(map(self._the_one, rest.heads)) and "finite" not in first.flags | rest.flags
+        both = both and mark == "&" and "placed" in rest.flags and not any(map(self._several, first.heads))
+        if all(headless) and not both and not all(self._phrase(head).kind in HEADLESS for head in first.heads):
             # "two mugs, one on a plate": said of the mugs, nothing more is named.
             mute = sum(self._says_nothing(head, rest.facts) for head in rest.heads)
             flags = first.flags | (rest.flags & {"finite"}) | {"told"} | ({"mute"} if mute else set())
-            cost += 0.8 * mute
+            cost += 0.8 * mute * (1 + all(map(self._the_one, rest.heads)))
             return Node("L", first.start, cost, first.heads, facts, "", flags)
         aside = any(headless) and headless[0] and ";" in rest.joints
         alone = all(self._phrase(head).words.lower().startswith("one of ") for head in first.heads) and not any(

@@ -43,7 +43,6 @@ _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
 _BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect"})
 _FORMS = frozenset({"tower", "stack", "pile", "column", "row", "line", "circle", "ring"})
-_PILES = frozenset({"tower", "stack", "pile", "column"})
 _MADE_OF = (("of",), ("out", "of"), ("from",), ("with",), ("using",), ("by", "stacking"))
 _THERE = lexicon.DEFINITE | lexicon.POSSESSIVES | {"them", "all", "both"}
 """What speaks of things that are there."""
@@ -235,7 +234,7 @@ def _built(tokens: Sequence[Token]) -> Sequence[Token]:
             continue
         end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
         first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
-        piled = words[form] in _PILES
+        piled = words[form] in lexicon.TOWERS
         deed = replace(tokens[at], text="stack" if piled else "arrange", end=tokens[form].end)
         how = [] if piled else [replace(tokens[form], text=word) for word in ("in", "a", words[form])]
         return [*tokens[:at], deed, *tokens[things:first], *how, *tokens[first:]]

@@ -34,7 +34,6 @@ _ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "
 _OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
         ("but",), ("except",), ("save",), ("besides",), ("than",))  # fmt: skip
-_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
 
 
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
@@ -102,7 +101,7 @@ def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
             continue
         # "Out of paper", and no "out of the box"
         start, run_out = at + size, words[at] in ("out", "low", "short")
-        if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in _LEADS | lexicon.PRONOUNS):
+        if run_out and (words[at - 1] not in lexicon.COPULAS or words[start] in lexicon.LEADING | lexicon.PRONOUNS):
             continue
         behind = next(n for n in range(start, len(words)) if tokens[n].mark or link_at(tokens, n))
         part = {words[behind - 1], *singulars(words[behind - 1])} & (lexicon.PARTS | lexicon.PORTIONS)
@@ -218,22 +217,24 @@ def _none_behind(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Tol
 
 def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "nothing is on the plate" as "there is the plate", and "nobody is there, only a cup" as "a cup"."""
-    if words[0] not in _NOTHING:
+    opens = (n for n in range(2, len(words) - 3) if words[n] == "nothing" and words[n - 1] in ("and", "but", "while"))
+    first = 0 if words[0] in _NOTHING else next(opens, None)
+    if first is None:
         return None
-    if (found := _nothing_but(tokens, words)) is not None:
+    if not first and (found := _nothing_but(tokens, words)) is not None:
         return found, []
-    if words[1] == "else" or any(tuple(words[1 : 1 + len(said)]) == said for said in _BUT):
+    if words[first + 1] == "else" or any(tuple(words[first + 1 : first + 1 + len(said)]) == said for said in _BUT):
         return None
-    end = next(n for n in range(len(words)) if tokens[n].mark)
-    if words[end] == ",":
+    end = next(n for n in range(first, len(words)) if tokens[n].mark)
+    if not first and words[end] == ",":
         after = end + 1 + (words[end + 1] in ("only", "but"))
         return (list(tokens[after:]), [(tokens[0], tokens[end - 1])]) if words[after] in lexicon.DETERMINERS else None
-    link = next((n for n in range(1, end - 1) if link_at(tokens, n)), 0)
+    link = next((n for n in range(first + 1, end - 1) if link_at(tokens, n)), 0)
     the = max((n for n in range(link, end) if words[n] in lexicon.DETERMINERS | lexicon.POSSESSIVES), default=0)
-    if not link or not the or not nouns.match([words[end - 1]]):
+    if not link or not the or not (nouns.match([words[end - 1]]) or words[end - 1] in ("one", "other")):
         return None
-    there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
-    return [*there, *tokens[the:]], [(tokens[0], tokens[end - 1])]
+    there = [replace(tokens[first], text="there"), replace(tokens[first], text="is")]
+    return [*tokens[:first], *there, *tokens[the:]], [(tokens[first], tokens[end - 1])]
 
 
 def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | None:
@@ -244,7 +245,7 @@ def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | Non
          if tuple(words[n : n + len(said)]) == said and link), (0, 0))  # fmt: skip
     the = but + size
     place = tokens[link : but - (words[but - 1] == ",")]
-    counted = words[the] in _LEADS or words[the].isdecimal()
+    counted = words[the] in lexicon.LEADING or words[the].isdecimal()
     if not but or not counted or any(token.mark for token in (*tokens[:link], *place)):
         return None
     verb = next((n for n in range(the, len(words)) if words[n] in FINITE), 0)

@@ -19,7 +19,6 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _LAYING = (("set", "up"), ("lay", "out"), ("set",), ("lay",), ("prepare",), ("dress",), ("arrange",))
 _SIDES = frozenset({"left", "right", "front", "back", "above", "below", "top", "center", "centre", "middle"})
-_MADE_UP = lexicon.NUMBERS.keys() | {"a", "an"}
 
 
 def laid_tables(text: str, told: Sequence[list[Token]], nouns: Nouns) -> tuple[list[list[Token]], list[str]]:
@@ -51,7 +50,7 @@ def _laid(tokens: list[Token], nouns: Nouns) -> tuple[list[Token], list[Sequence
     spans: list[Sequence[Token]] = [tokens[end:colon]] if end < colon else []
     things: list[Token] = []
     items = items_of(tokens[colon + 1 : -1])
-    if all(item[0].text in _MADE_UP and _named(item, nouns) == len(item) for item in items):
+    if all(item[0].text in lexicon.COUNTING and _named(item, nouns) == len(item) for item in items):
         # "Lay the table for three: three bowls and three cups" is the scene to make, as "put three bowls on it" is.
         return None
     for item in items:

@@ -19,7 +19,6 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 _LEVELS = {"top": "top", "bottom": "bottom", "base": "bottom", "foot": "bottom"}
 _BESIDE = frozenset({"base", "foot"})
 """What other things than those of the stack stand beside."""
-_STACKS = frozenset({"stack", "tower", "pile", "column"})
 _FAR_ENDS = ("table", "desk", "bed", "rug", "mat", "carpet", "placemat", "chessboard")
 """Of what lies flat the top is its far end."""
 _PUTTING = frozenset({"make", "move", "stack"})
@@ -62,7 +61,7 @@ def at_levels(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     putting = any(
         VERBS.get(word) in _PUTTING and words[n - 1] not in lexicon.DETERMINERS for n, word in enumerate(verbs)
     )
-    if level.of and words[head] in _STACKS:
+    if level.of and words[head] in lexicon.TOWERS:
         if putting or words[head + 1] != "of":
             return _of_the_stack(tokens, level, head, putting=putting)
         return _of_a_stack(tokens, level, head, nouns)
@@ -142,7 +141,7 @@ def _alone(tokens: Sequence[Token], level: _Level, nouns: Nouns) -> list[Token]:
         return [*tokens[: level.first], thing[0], *_said(tokens[level.at], (_LEVELS[level.word],)), *thing[1:], *behind]
     if level.stated or words[level.first - 1] not in ("with", "has", "having", "and") or level.first < 4:
         return list(tokens)
-    head = next((n for n in range(level.first - 3, -1, -1) if words[n] in _STACKS and words[n + 1] == "of"), -1)
+    head = next((n for n in range(level.first - 3, -1, -1) if words[n] in lexicon.TOWERS and words[n + 1] == "of"), -1)
     between = range(head + 2, level.first - 1)
     if head < 0 or any(tokens[n].mark or words[n] == "and" or link_at(tokens, n) for n in between):
         return list(tokens)

@@ -18,7 +18,6 @@ _ONE = frozenset({"a", "an", "one", "the"})
 _OF_KINDS = frozenset({"has", "have", "contains", "contain", "includes", "include"})
 _EACH_SHELF = [["on", each, "shelf"] for each in ("each", "every")]
 _SHELVED = ("bookshelf", "cabinet", "wardrobe", "dresser", "fridge", "tv stand", "cart")
-_ROWS = frozenset({"row", "line"})
 _ON = (("on",), ("atop",), ("on", "top", "of"))
 _PLACES = {
     **{("one", near, each, "corner"): "in the corners of" for near in ("in", "at", "on") for each in ("each", "every")},
@@ -114,7 +113,7 @@ def _on_itself(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         owned = behind and words[at - behind + 1] in ("on", "in") and words[at - behind + 2] in ("it", "them")
         after = words[min(at - behind + 3, len(words) - 1)]
         named = after in lexicon.DETERMINERS or after in lexicon.NUMBERS or after.isdecimal()
-        if owned and named and words[max(at - behind - 1, 0)] not in (*_ROWS, "to", ","):
+        if owned and named and words[max(at - behind - 1, 0)] not in (*lexicon.ROWS, "to", ","):
             continue
         made.append(token)
     return made
@@ -137,7 +136,7 @@ def _rows_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a row of a cup, a jar and a pan on a desk" as "a cup, a jar and a pan in a row on a desk"."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 6):
-        if words[at] != "a" or words[at + 1] not in _ROWS or words[at + 2] != "of" or words[at + 3] not in _ONE:
+        if words[at] != "a" or words[at + 1] not in lexicon.ROWS or words[at + 2] != "of" or words[at + 3] not in _ONE:
             continue
         end = _end_of_list(words, at + 3, nouns)
         if end:

@@ -27,7 +27,6 @@ _BESIDE = {
     "left": "to the left of the", "right": "to the right of the", "front": "in front of the", "back": "behind the",
 }  # fmt: skip
 _ALONE = {"left": "on the left", "right": "on the right", "middle": "in the middle"}
-_LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
 _NEAR = frozenset({"on", "to", "at", "in"})
 _OPENED, _CLOSED = ("(", "["), (")", "]")
 _THERE = tuple(tuple(said.split()) for said in (
@@ -62,7 +61,7 @@ def sides(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     first, own, _ = items[0]
     if own and sum(bool(side) for _, side, _ in told) < 2:
         return list(tokens)
-    head = [token.text for token in tokens[: ends[0]] if token.text not in _LEADING]
+    head = [token.text for token in tokens[: ends[0]] if token.text not in lexicon.LEADING]
     head = head[: head.index("of")] if "of" in head else head
     level = nouns.of_class(first.noun, lexicon.LEVEL)
     level = level and not nouns.of_class(first.noun, (*lexicon.DISHES, *lexicon.SEATS))
@@ -103,7 +102,7 @@ def _item(tokens: Sequence[Token], nouns: Nouns) -> tuple[Match, str, bool] | No
     last, side, bare = _before_side(words)
     words = words[:last]
     words = words[: words.index("of")] if "of" in words[1:] else words
-    while len(words) > 1 and (words[0] in _LEADING | lexicon.BACKGROUND or words[0].isdecimal()
+    while len(words) > 1 and (words[0] in lexicon.LEADING | lexicon.BACKGROUND or words[0].isdecimal()
                               or is_modifier(words[0])):  # fmt: skip
         words = words[1:]
     found = nouns.match(words) if len(words) < 4 else None

@@ -15,7 +15,6 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _SIDES = {"left": ("to", "the", "left", "of"), "right": ("to", "the", "right", "of"), "front": ("in", "front", "of"),
           "back": ("behind",), "rear": ("behind",)}  # fmt: skip
-_PILES = frozenset({"stack", "pile", "tower", "column"})
 _OFF = (("off",), ("from",), ("off", "of"), ("out", "of"))
 _RANKS = frozenset({"top", "bottom"})
 _ENDING = frozenset({"and", "then", "to", "onto", "into"})
@@ -67,7 +66,7 @@ def stack_of(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     for at in range(2, len(words) - 3):
         number = at + 2
-        counted = words[at] in _PILES and words[at + 1] == "of" and words[number] in lexicon.NUMBERS
+        counted = words[at] in lexicon.TOWERS and words[at + 1] == "of" and words[number] in lexicon.NUMBERS
         if not counted or words[number] in ("a", "an", "one") or not (
             sentence[number + 1].mark or words[number + 1] in _ENDING
             or link_at(sentence, number + 1)):  # fmt: skip
@@ -88,7 +87,7 @@ def stack_of(sentence: list[Token]) -> list[Token]:
 def _off_the_top(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     for at in range(3, len(words) - 4):
-        piled = words[at + 2] == "of" and words[at + 1] in _PILES and words[at] in ("the", "a", "that", "this")
+        piled = words[at + 2] == "of" and words[at + 1] in lexicon.TOWERS and words[at] in ("the", "a", "that", "this")
         off = next((at - size for size in (2, 1) if tuple(words[at - size : at]) in _OFF), 0)
         if not piled or off < 2 or words[off - 2] not in ("the", "a", "an", "one"):
             continue

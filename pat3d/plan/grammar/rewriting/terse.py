@@ -17,7 +17,6 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _GRID = re.compile(r"[2-9]x[2-9]")
 _FORMS = frozenset({"row", "line", "circle", "ring", "stack", "pile"})
-_BUILT = frozenset({"tower", "stack", "pile", "column"})
 _TELLING = frozenset({"biggest", "smallest", "tallest", "shortest", "largest", "longest"}) | {
     word for word in lexicon.POSITIONS if word not in ("left", "right", "front", "back")
 }
@@ -176,7 +175,7 @@ def _of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at in range(1, len(words) - 3):
         size = _noun_before(tokens, at, nouns)
         counted = words[at + 1].isdecimal() or words[at + 1] in lexicon.NUMBERS
-        if words[at] in _BUILT and size and counted and words[at + 2] == "high":
+        if words[at] in lexicon.TOWERS and size and counted and words[at + 2] == "high":
             name = [*tokens[at - size : at - 1], replace(tokens[at - 1], text=f"{words[at - 1]}s")]
             of = replace(tokens[at], text="of")
             return [*tokens[: at - size], tokens[at], of, tokens[at + 1], *name, *tokens[at + 3 :]]

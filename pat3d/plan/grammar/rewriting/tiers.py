@@ -22,7 +22,6 @@ _HEIGHTS = frozenset(lexicon.LEVELS) | {"middle", "centre", "center", "central",
                                         "last", "next", "other"}  # fmt: skip
 _OPENING = frozenset({".", ",", ":", "and", "while", "but", "whereas"})
 _WITH = frozenset({"with", "has", "having", "of", "featuring", "have"})
-_COUNTING = frozenset({"a", "an"} | lexicon.NUMBERS.keys())
 
 
 def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -48,7 +47,7 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             after = at + size
             said = ("the", height, "shelf", "of", "the", *owner)
             made += [replace(tokens[at + min(n, size - 1)], text=word) for n, word in enumerate(said)]
-            if verb and words[at - 1] in _OPENING and words[after] in _COUNTING:
+            if verb and words[at - 1] in _OPENING and words[after] in lexicon.COUNTING:
                 # "The top shelf holds a globe, the bottom one a vase."
                 made.append(replace(tokens[after - 1], text="holds"))
             told = True
@@ -131,10 +130,10 @@ def _level(words: Sequence[str], at: int, *, told: bool) -> tuple[int, str]:
     height, head, after = words[at + 1 : at + 4]
     if height in _HEIGHTS and (head in _LEVELS or (told and head == "row")):
         return (0, "") if after == "of" and words[at + 4 : at + 5] not in (["it"], ["them"]) else (3, height)
-    subject = words[at - 1] in _OPENING and (_finite(after) or after in _COUNTING)
+    subject = words[at - 1] in _OPENING and (_finite(after) or after in lexicon.COUNTING)
     if told and height in _HEIGHTS and head == "one" and (subject or words[at - 1] == "on"):
         return 3, height
-    alone = words[at - 1] in _OPENING and (_finite(head) or head in _COUNTING or head == "holding")
+    alone = words[at - 1] in _OPENING and (_finite(head) or head in lexicon.COUNTING or head == "holding")
     if told and height in _HEIGHTS and (alone or (words[at - 1] == "on" and head in _OPENING)):
         # "The upper holds a lamp, the lower a plant."
         return 2, height

@@ -46,6 +46,8 @@ DEFINITE = frozenset({"the", "this", "that", "these", "those", "each", "every", 
 DEMONSTRATIVES = frozenset({"that", "this"})
 """Pronouns for what was named last."""
 POSSESSIVES = frozenset({"its", "his", "her", "their", "my", "your", "our"})
+LEADING = DETERMINERS | POSSESSIVES | NUMBERS.keys() | VAGUE.keys()
+COUNTING = NUMBERS.keys() | {"a", "an"}
 PRONOUNS = frozenset({"it", "them", "they", "him", "he", "she", "itself", "themselves", "which"})
 
 RELATIVES = frozenset({"that", "which", "who", "whose", "where"})
@@ -134,6 +136,7 @@ MAIN_PARTS = frozenset({"cover", "fur", "texture", "finish", "design", "pattern"
 
 STACK_NOUNS = frozenset({"stack", "pile", "tower", "column", "heap", "mound"})
 HEAPS = frozenset({"heap", "mound"})
+TOWERS = STACK_NOUNS - HEAPS
 """What is never a stack, whatever lies in it; a pile of what rolls is none either."""
 DRAWERS = frozenset({"drawer", "drawers", "compartment", "compartments", "door"})
 """Parts that things are put into and no asset has."""
@@ -367,7 +370,7 @@ OPPOSITES = tuple(frozenset(pair.split()) for pair in (
 PARTS_OF: dict[str, tuple[str, ...]] = {
     "burner": ("stove",), "oven": ("stove",), "scoop": ("ladle", "spoon", "measuring spoon"),
     "bowl": ("spoon", "ladle", "measuring spoon", "wooden spoon"), "screen": ("laptop", "phone", "tablet", "monitor"),
-    "keyboard": ("laptop",), "lid": ("laptop", "piano", "grill", "toilet", "printer", "treasure chest"),
+    "keyboard": ("laptop",), "lid": ("laptop", "piano", "grill", "toilet", "printer", "treasure chest", "bin"),
     "clip": ("clipboard", "pen"), "cap": ("bottle", "pen", "marker"), "ring": ("binder",),
     "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
     "stand": ("globe", "monitor"), "flower": ("plant", "potted plant", "cactus", "tree", "bush"),

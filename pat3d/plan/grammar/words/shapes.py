@@ -35,7 +35,6 @@ PLACES = frozenset({"wall", "fan", "star", "fort", "castle", "bridge", "arch", "
 """Shapes that things may also be in or on: "a clock in a wall"."""
 RINGS = frozenset({"circle", "ring"})
 """What objects "around" something form anyway."""
-_BUILDING = frozenset({"build", "make", "create", "construct", "form", "assemble"})
 _MADE = frozenset({"made", "built", "composed", "formed", "constructed", "assembled", "consisting"})
 
 
