@@ -132,7 +132,7 @@ class Doing(Placing):
         said = " ".join(f'"{self._chunks[head].text}"' for head in two)
         if told and kinds <= {"object", "unknown", "pieces", "pronoun", "part"}:
             self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
-        elif link is not None and link.says:
+        elif link is not None and (link.says or link.kind in LATERAL_KINDS):
             self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
 
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:

@@ -16,6 +16,7 @@ from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import DRAPED, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
+from pat3d.plan.holders import HOUSING
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE, RELATION_WORDS, SUPPORT_KINDS, LateralKind
 
 _HALVES: dict[str, LateralKind] = {
@@ -255,10 +256,12 @@ class Relating:
             elif world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
-            elif world.on_floor(parent) or world.is_a(parent, lexicon.TIERED):
+            elif world.on_floor(parent) or world.is_a(parent, HOUSING):
                 kind = "on"
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
+        elif kind == "on" and world.is_a(parent, HOUSING):
+            world.note(f"not arranged: {said.format('on')}; it is placed in it")
         self._settle(children, parents)
         if link.said == "over":
             world.over += _paired(children, parents)

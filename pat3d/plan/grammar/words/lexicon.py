@@ -5,6 +5,7 @@ from __future__ import annotations
 from pat3d.plan.grammar.words.generics import GENERICS as GENERICS
 from pat3d.plan.grammar.words.generics import MASS_GENERICS as MASS_GENERICS
 from pat3d.plan.grammar.words.parts import PARTS as PARTS
+from pat3d.plan.holders import HOUSING
 
 NUMBERS: dict[str, int] = {
     "zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
@@ -280,10 +281,7 @@ SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam", "log")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
-STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk",
-    "birdcage", "dollhouse", "file sorter")  # fmt: skip
-TIERED = ("birdcage", "dollhouse", "file sorter")
-"""What things are in that stand on a floor inside of it, where it need not stand on the floor itself."""
+STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk", *HOUSING)
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
