@@ -132,8 +132,14 @@ class Doing(Placing):
         said = " ".join(f'"{self._chunks[head].text}"' for head in two)
         if told and kinds <= {"object", "unknown", "pieces", "pronoun", "part"}:
             self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
-        elif link is not None and (link.says or link.kind in LATERAL_KINDS):
+        elif link is not None and link.says:
             self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
+        elif link is not None and link.kind in LATERAL_KINDS:
+            # "A bicycle in front of the garage", of which nothing is made
+            where = [self._chunks[head].named for head in two]
+            if any(each.kind == "background" and each.determined and not each.substance for each in where):
+                places = " and ".join(each.words for each in where)
+                self._world.note(f'not modelled: "{self._chunks[at].text.lower()} {places}"')
 
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""

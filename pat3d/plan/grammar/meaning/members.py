@@ -56,21 +56,6 @@ class Members(ByPlace):
                 return untold[: phrase.count or (None if phrase.plural else 1)]
         return []
 
-    def _holds_others(self, at: int, group: Group) -> bool:
-        """Whether chunk `at` is told by what is in it, and `group` by something else: "the jar with the nuts"."""
-        ours = self._contents(at)
-        heads = [head for head, items in self.known.items() if items and items[0].group is group]
-        theirs = {noun for head in heads for noun in self._contents(head)}
-        theirs |= {self._world.noun(e.child) for e in self._world.supports.values() if e.parent in group.items}
-        other = ours and theirs and not ours & theirs and len(group.items) == 1
-        return bool(other) and self._world.likely.hollow(group.noun)
-
-    def _contents(self, at: int) -> set[str]:
-        """The noun of the apples of "the bowl with the apples" at chunk `at`; none without."""
-        have, thing = (*self._chunks[at + 1 : at + 3], None, None)[:2]
-        named = have is not None and have.text == "with" and thing is not None and thing.phrase is not None
-        return {thing.phrase.noun} - {""} if named else set()  # type: ignore[union-attr]
-
     def _besides(self, at: int) -> set[Group]:
         """Groups that other phrases name, to which chunk `at` is related."""
         partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}

@@ -187,8 +187,9 @@ def known_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         end = at + size + led + noun
         same = [(last, how) for last, other, how in named if other.noun == match.noun and other.said == match.said]
-        again = size and len(same) == 1 and not match.plural and same[0][0] != at and {*words[:led]} <= {*same[0][1]}
-        again = again and "several" not in same[0][1]
+        # "The jar of honey" is the jar of what it was of before.
+        again = size and tokens[at].text != "of" and len(same) == 1 and not match.plural and same[0][0] != at
+        again = again and {*words[:led]} <= {*same[0][1]} and "several" not in same[0][1]
         made += tokens[at : at + size]
         if again:
             made.append(replace(tokens[at + size], text="the"))
