@@ -57,7 +57,7 @@ def one_of_stuff(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Tol
         counted = next((n for n in range(1, at) if numeral(words[n - 1]) > 1), 0)
         if told or not counted or words[end - 1] == "of":
             continue
-        owner = nouns.match(words[counted : counted + 1])
+        owner = next(filter(None, (nouns.match(words[n : n + 1]) for n in range(counted, min(counted + 3, at)))), None)
         vessel = owner is not None and nouns.of_class(owner.noun, (*lexicon.HOLLOW, *lexicon.LEVEL))
         if vessel and find_material(words[end - 1]) is None:
             return [*tokens[: at + 1], replace(tokens[at + 1], text="with"), *tokens[at + 2 :]], []
