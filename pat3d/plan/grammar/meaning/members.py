@@ -227,9 +227,11 @@ class Members(ByPlace):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
-        if where in ("left", "right") and "one" in phrase.words.lower().split():
-            # "The left tray carries three muffins, the right one a knife": another tray.
-            beside = [group for group in groups if len(group.items) == 1 and group.items[0].place == OPPOSITE[where]]
+        if where in COUNTED or (where in ("left", "right") and "one" in phrase.words.lower().split()):
+            # "The left tray carries three muffins, the right one a knife", "Books fill the top shelf; the second ...":
+            # another tray, another shelf.
+            others = {*COUNTED, *lexicon.LEVELS} - {where} if where in COUNTED else {OPPOSITE[where]}
+            beside = [group for group in groups if len(group.items) == 1 and group.items[0].place in others]
             if beside:
                 return self._one_like(beside[0].items, phrase)
         if self.asked and where and phrase.definite and (one := one_of_unlike(world, world.together, where)):

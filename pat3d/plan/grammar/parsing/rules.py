@@ -284,7 +284,9 @@ class Grammar(Listing):
             # "A book under a lamp on a table": the book is on the table; but "under a coat hanging on a hook".
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
-            cost += 1.0
+            # "Two trays: on the first, three cups": no trays are on one of them.
+            own = link.kind in SUPPORT_KINDS and named.heads[0] < modifier.heads[0]
+            cost += 1.0 + 2.0 * (own and self._one_of(modifier.heads[:1], named.heads))
         another = self._one_more(modifier.heads[0]) and not self._phrase(modifier.heads[0]).definite
         if another and not any(self._phrase(head).modifiers.colours for head in named.heads):
             # "A red cup stands on a desk next to a blue one": the blue one is no desk.
