@@ -141,6 +141,10 @@ class Members(ByPlace):
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
             return self._one_like(subject, phrase)
+        if not phrase.definite and phrase.count:
+            # "Two trays: ... on the second, two cups": of the trays none.
+            upon = [item.group for one, other in self.related if at in one for head in other for item in self.ref(head)]
+            groups = [group for group in groups if group not in upon]
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
             # "the smaller of two boxes inside the larger one"
