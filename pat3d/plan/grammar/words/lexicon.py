@@ -259,7 +259,7 @@ NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "
     "tray")  # fmt: skip
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
         "cutting board", "table", "towel", "napkin", "pillow", "cushion", "yoga mat", "mouse pad",
-        "trivet", "chessboard", "blotter", "tile", "jigsaw puzzle")  # fmt: skip
+        "trivet", "chessboard", "blotter", "tile", "jigsaw puzzle", "newspaper")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
 """What else is below rather than beside what it is "under", where that does not stand on the floor."""
