@@ -152,7 +152,7 @@ class Pronouns:
             candidates.append((-1.2, list(steps[-1].items)))
         if child and not plural and steps and steps[-1].goal and self._world.is_a(steps[-1].goal[0], lexicon.THIN):
             # "Wrap the vase in newspaper and stand it in the crate": the vase, whatever goes into crates.
-            candidates.append((-0.8, list(steps[-1].items)))
+            candidates.append((-2.0, list(steps[-1].items)))
         if self.stacking and not child and not plural and steps and len(steps[-1].items) == 1:
             # "Put the red block on the mat and stack the other two on it": on the red block.
             candidates.append((-0.8, list(steps[-1].items)))
