@@ -251,7 +251,9 @@ class Contrast(Pronouns):
                      for phrase in (self._chunks[head].named for head in before))  # fmt: skip
         first = self._carrying(whole) if whole is not None else None
         upon = self._world.support(self._world.subject[0]) if self._world.subject and before == [place] else None
-        if upon is not None and upon in {item for one in self.ref(place) for item in one.group.items} - {*self.ref(place)}:
+        if upon is not None and upon in {item for one in self.ref(place) for item in one.group.items} - {
+            *self.ref(place)
+        }:
             # "Two trays: on the first, three cups; on the second, two"
             items = self._world.subject
         elif whole is None or first is None or pieces or self._carrying(first) is not None or place == first:

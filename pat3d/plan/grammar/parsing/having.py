@@ -37,7 +37,9 @@ class Having(Judging):
         cost = _LANDMARKS * (landmark and link.finite and at == owners[-1] + 1)
         hung = landmark and self._link(owners[0] - 1).kind in SUPPORT_KINDS
         # "A clipboard hanging from a nail with a pen on it": the clipboard has.
-        cost += _BY_A_NAIL * (hung and self._likely.is_a(self._noun(owners[0]), ("nail", "hook")) and self._set_down(at))
+        cost += _BY_A_NAIL * (
+            hung and self._likely.is_a(self._noun(owners[0]), ("nail", "hook")) and self._set_down(at)
+        )
         for fact in modifier.facts:
             ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
             if ours and link.manner == "flank":
