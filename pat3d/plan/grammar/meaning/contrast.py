@@ -246,15 +246,13 @@ class Contrast(Pronouns):
         if not number or phrase.definite or place is None or any(self._chunks[n].text == ":" for n in range(at)):
             return []
         whole = next((head for head in before if self._counted(head)), None)
-        # "On the first are three cups, on the second two"
         pieces = any(phrase.kind == "pieces" and not is_numbered(phrase)
                      for phrase in (self._chunks[head].named for head in before))  # fmt: skip
         first = self._carrying(whole) if whole is not None else None
+        there = self.ref(place)
         upon = self._world.support(self._world.subject[0]) if self._world.subject and before == [place] else None
-        if upon is not None and upon in {item for one in self.ref(place) for item in one.group.items} - {
-            *self.ref(place)
-        }:
-            # "Two trays: on the first, three cups; on the second, two"
+        if upon is not None and upon not in there and any(upon in item.group.items for item in there):
+            # "On the first are three cups; on the second, two"
             items = self._world.subject
         elif whole is None or first is None or pieces or self._carrying(first) is not None or place == first:
             return []

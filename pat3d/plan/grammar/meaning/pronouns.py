@@ -174,14 +174,10 @@ class Pronouns:
                 candidates.append((0.25 if bears else -0.4, world_front))
             else:
                 candidates.append((-0.4 if turned else 0.05, world_front))
-        if (
-            self._relating.landmark[0]
-            and not (near or pointing)
-            and not self._comes_later(self._relating.landmark[0], at)
-        ):
+        landmark = [] if near or pointing else self._relating.landmark[0]
+        if landmark and not self._comes_later(landmark, at):
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values() and link.manner != "between"
-            landmark = self._relating.landmark[0]
             across = link is not None and any(
                 edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals
             )

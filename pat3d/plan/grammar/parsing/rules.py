@@ -175,7 +175,7 @@ class Grammar(Listing):
             # "The mug is to the left of the stove and to the right of the sink": the mug is both.
             cost += self._beside_too(named, modifier)
         if set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
-            # "a candle, a rose in a vase and a cup": the list goes on behind the rose; but "two figs, a pear, in a bowl".
+            # "a candle, a rose in a vase and a cup": it goes on behind the rose; but "two figs, a pear, in a bowl".
             goes_on = any(chunk.kind == "joint" for chunk in self._chunks[max(modifier.heads) :])
             cost += 0.4 * (modifier.cat == "M" or goes_on)
         if "finite" in named.flags & modifier.flags and (len(named.heads) > 1 or modifier.cat == "M"):

@@ -54,8 +54,8 @@ def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
     for told in (choice, one_of_stuff, _style, _stuffs, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped,
-                 _state, _labels, in_turn, _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun,
-                 ways.often, ways.until, ways.parallel, ways.leaping):  # fmt: skip
+                 _state, _labels, in_turn, _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait,
+                 ways.begun, ways.often, ways.until, ways.parallel, ways.leaping):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pat3d.plan.grammar.words.generics import GENERICS as GENERICS
 from pat3d.plan.grammar.words.generics import MASS_GENERICS as MASS_GENERICS
 from pat3d.plan.grammar.words.parts import PARTS as PARTS
-from pat3d.plan.holders import HOUSING
+from pat3d.plan.holders import HOUSING as HOUSING
 
 NUMBERS: dict[str, int] = {
     "zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
