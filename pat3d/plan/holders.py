@@ -14,6 +14,8 @@ FLAT = ("plate", "saucer", "platter", "tray", "baking tray", "pan", "frying pan"
         "dustpan", "paper tray", "toy truck", "baking dish", "petri dish", "drawer organizer", "cube tray", "wine rack",
         "toy wagon", "test tube rack", "egg carton")  # fmt: skip
 """What things are put on as well as in."""
+HOUSING = ("birdcage", "dollhouse", "file sorter")
+"""What things stand in, on a floor inside of it, whatever is said of where: a doll on a doll's house is in it."""
 _SHUT = frozenset({"magnifying glass", "moka pot", "jam jar", "cookie jar", "specimen jar", "sugar bowl"})
 """Nouns of what is closed, or has no inside, whatever its last word."""
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 
 from pat3d.plan.english import counted, is_plural, joined, plural, some
-from pat3d.plan.holders import FLAT, holds
+from pat3d.plan.holders import FLAT, HOUSING, holds
 from pat3d.plan.naming import Names
 from pat3d.plan.scene_plan import Arrangement, ScenePlan
 from pat3d.scene.arrangements import ARRANGEMENTS, crossing
@@ -71,7 +71,7 @@ class _Teller(Names):
         """Whether what is put to object `name` is put "in" or "on" it: as the prompt has it where both are right."""
         noun = next(obj.noun for obj in self._plan.objects if obj.name == name)
         if noun not in FLAT:
-            return "in" if holds(noun) else "on"
+            return "in" if holds(noun) or noun in HOUSING else "on"
         head = re.escape(self._base[name].split()[-1])
         said = re.findall(rf"\b(in|into|inside|on|onto|to)(?: \w+){{0,4}}? {head}\b", self._plan.prompt, re.IGNORECASE)
         return "in" if said and said[-1].lower().startswith("in") else "on"
@@ -129,9 +129,14 @@ class _Teller(Names):
                 else:
                     others, place = self._same_parents(parent, own, kind)
                     is_or_are = "are" if len(others) > 1 else verb
-                    made.append(f"{self._listed(others)} {is_or_are} {RELATION_WORDS[kind]} {place}")
+                    made.append(f"{self._listed(others)} {is_or_are} {self._how(parent, kind)} {place}")
                     told |= set(others)
         return made
+
+    def _how(self, parent: str, kind: str) -> str:
+        """In which words things are `kind` to `parent`: what stands on the floor of a cage is in it."""
+        housed = kind == "on" and any(obj.name == parent and obj.noun in HOUSING for obj in self._plan.objects)
+        return RELATION_WORDS["in" if housed else kind]
 
     def _kind(self, name: str) -> str:
         return self._below[name].kind if name in self._below else "on"
@@ -147,7 +152,7 @@ class _Teller(Names):
             likes = [[name for name in names if self._base[name] == self._base[own[0]]] for _, names in pairs]
             if all(len(each) == 1 for each in likes) and all(len(names) == 1 for _, names in pairs):
                 place = f"the {counted(len(kind))} {plural(self._base[parent])}"
-                return [each[0] for each in likes], f"{place}, one {RELATION_WORDS[how]} each"
+                return [each[0] for each in likes], f"{place}, one {self._how(parent, how)} each"
         return own, self._upon(parent)
 
     def _spread(self, parent: str, kind: str) -> tuple[list[str], str] | None:
@@ -164,7 +169,7 @@ class _Teller(Names):
         sizes = list(dict.fromkeys(map(len, shares)))
         one_kind = len({self._like[name][0] for name in names}) == 1
         parents = f"the {counted(len(like))} {plural(self._base[parent])}"
-        verb = RELATION_WORDS[kind]
+        verb = self._how(parent, kind)
         if one_kind and len(sizes) == 1:
             return names, f"{self._listed(names)} are {verb} {parents}, {counted(sizes[0])} {verb} each"
         how = f": {joined([counted(len(share)) if share else 'none' for share in shares])}" if one_kind else ""

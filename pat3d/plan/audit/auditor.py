@@ -11,7 +11,6 @@ from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.adrift import adrift
 from pat3d.plan.audit.again import again, between_own, fronted, joined, of_the_counted, one_more
 from pat3d.plan.audit.asked import requests
-from pat3d.plan.audit.backdrop import by_backdrop
 from pat3d.plan.audit.chained import chained
 from pat3d.plan.audit.claims import broken
 from pat3d.plan.audit.compared import KINDS, Compared
@@ -80,7 +79,6 @@ _AUDITS = (
     shares, chained, confused, numbers, rows, choices, sizes, storeys, heights, ranked, matched, rings, shared_colours,
     listed_colours, insides, carried, on_the_other, opposite, contents, meant, postured, sides, again, joined,
     of_the_counted, one_more, fronted, between_own, fallen_out, posed_twice, tallies,
-    by_backdrop,
 )  # fmt: skip
 """Each yields the words at which a sentence and a plan differ, with the note that says how."""
 _REPEATING = REPEATS | ORDINALS | NUMBERS.keys() - {"a", "an"}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
-from itertools import pairwise
 
 from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError
@@ -239,7 +239,7 @@ class Cutter(Qualities):
             return phrase
         senses = [(found.noun, about) for name, about in meanings if (found := self._nouns.match(name.split()))]
         # "A mouse next to a computer mouse": the other is called so to tell it from this one.
-        others = {one.text for one, head in pairwise(self._tokens) if head.text == phrase.head}
+        others = set(re.findall(rf"(\w+)(?=\W{re.escape(phrase.head)}\b)", self._text.lower()))
         noun = sense(phrase.noun, set(self._company) - others, senses)
         said = phrase.head if noun == "sunglasses" else noun if noun not in (phrase.noun, "pillow") else phrase.said
         if said == noun:

@@ -45,7 +45,9 @@ def denied(tokens: Sequence[Token], at: int, read: Read) -> Denied:
     items, closer = [first], ""
     while (joint := _joint(tokens, items[-1].end, closer)) and (item := _item(tokens, items[-1].end + joint, read)):
         word = tokens[item.start - 1].text
-        if word == "," and closer:
+        # "Without its lid and the lid beside it"
+        again = tokens[item.end - 1].text in [tokens[each.end - 1].text for each in items]
+        if again or (word == "," and closer):
             break
         closer = word if word != "," else ""
         items.append(item)

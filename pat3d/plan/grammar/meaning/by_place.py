@@ -1,4 +1,4 @@
-"""Which one of several its place among them tells, or what it stands beside: "the middle one", "the left cup"."""
+"""Which of several its place, what it stands beside or what is in it tells: "the left cup", "the jar of nuts"."""
 
 from __future__ import annotations
 
@@ -9,7 +9,16 @@ from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.further import Further
-from pat3d.plan.grammar.meaning.matching import COUNTED, OPPOSITE, PLACES, colours_of, line_up, position
+from pat3d.plan.grammar.meaning.matching import (
+    COUNTED,
+    OPPOSITE,
+    PLACES,
+    colours_of,
+    line_up,
+    position,
+    same_head,
+    same_noun,
+)
 from pat3d.plan.grammar.meaning.unlike import from_the_front, one_of_unlike
 from pat3d.plan.grammar.rewriting.displaced import NEARNESS
 from pat3d.plan.grammar.words import lexicon
@@ -17,7 +26,7 @@ from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 
 
 class ByPlace(Further):
-    """Chooses one of several by where it is."""
+    """Chooses one of several by where it is, or by what is in it."""
 
     def _singled(self, items: list[Item], phrase: Phrase, at: int | None) -> list[Item]:
         """The one of several that "the cup to the left of the plate" means: one that was not singled out before.
@@ -113,3 +122,34 @@ class ByPlace(Further):
         if (where not in COUNTED and len(world.laterals) > known) or (where in OPPOSITE and not known):
             world.note(f'assumed: "{phrase.words}" is "{one[0].group.words}"')
         return one
+
+    def _of_contents(self, at: int, phrase: Phrase) -> list[Item]:
+        """The jar of "the jar of nuts" at chunk `at`, or the nuts of that, where both were named before."""
+        ours = self._contents(at) if phrase.definite else set[str]()
+        named = [one for one in reversed(self._world.groups) if same_noun(one, phrase) or same_head(one, phrase)]
+        for group in named:
+            of_it = phrase.definite and bool(phrase.substance) and phrase.substance == group.phrase.substance
+            if of_it or ours & self._held(group):
+                return list(group.items)
+        owners = self.known.get(at - 2, ()) if at > 1 and self._chunks[at - 1].text == "of" else ()
+        again = owners and self._chunks[at - 2].named.definite and phrase.count is None
+        held = [edge.child for edge in self._world.supports.values() if again and edge.parent in owners]
+        return [item for item in held if item.group in named]
+
+    def _held(self, group: Group) -> set[str]:
+        """The nouns of what is in or on `group`."""
+        return {self._world.noun(edge.child) for edge in self._world.supports.values() if edge.parent in group.items}
+
+    def _holds_others(self, at: int, group: Group) -> bool:
+        """Whether chunk `at` is told by what is in it, and `group` by something else: "the jar with the nuts"."""
+        ours = self._contents(at)
+        heads = [head for head, items in self.known.items() if items and items[0].group is group]
+        theirs = {noun for head in heads for noun in self._contents(head)} | self._held(group)
+        other = ours and theirs and not ours & theirs and len(group.items) == 1
+        return bool(other) and self._world.likely.hollow(group.noun)
+
+    def _contents(self, at: int) -> set[str]:
+        """The noun of the apples of "the bowl with the apples", "the bowl of apples" at chunk `at`; none without."""
+        have, thing = (*self._chunks[at + 1 : at + 3], None, None)[:2]
+        named = have is not None and have.text in ("with", "of") and thing is not None and thing.phrase is not None
+        return {thing.phrase.noun} - {""} if named else set()  # type: ignore[union-attr]

@@ -248,11 +248,18 @@ class Contrast(Pronouns):
         if not number or phrase.definite or place is None or any(self._chunks[n].text == ":" for n in range(at)):
             return []
         whole = next((head for head in before if self._counted(head)), None)
-        pieces = any(self._chunks[head].named.kind == "pieces" for head in before)
+        pieces = any(phrase.kind == "pieces" and not is_numbered(phrase)
+                     for phrase in (self._chunks[head].named for head in before))  # fmt: skip
         first = self._carrying(whole) if whole is not None else None
-        if whole is None or first is None or pieces or self._carrying(first) is not None or place == first:
+        there = self.ref(place)
+        upon = self._world.support(self._world.subject[0]) if self._world.subject and before == [place] else None
+        if upon is not None and upon not in there and any(upon in item.group.items for item in there):
+            # "On the first are three cups; on the second, two"
+            items = self._world.subject
+        elif whole is None or first is None or pieces or self._carrying(first) is not None or place == first:
             return []
-        items = self.known[whole]
+        else:
+            items = self.known[whole]
         group = items[0].group
         more = self._one_like(items, replace(phrase, modifiers=group.modifiers))
         total = len(items) + len(more)

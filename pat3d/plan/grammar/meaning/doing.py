@@ -29,6 +29,11 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
+_STRUCTURES = frozenset({
+    "window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door", "doorway", "corner",
+    "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
+})  # fmt: skip
+"""What is never made, though things are said to be on it and in it as well as by it."""
 ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
 
@@ -137,6 +142,13 @@ class Doing(Placing):
             self._world.note(f'not understood: "{self._chunks[at].text}" {said}')
         elif link is not None and link.says:
             self._world.note(f'not arranged: "{self._chunks[at].text}" {said}, which is set aside')
+        elif link is not None and not link.inverse:
+            # "A bicycle in front of the garage", "a mirror on the wall", of which nothing is made
+            where = [self._chunks[head].named for head in two]
+            unmade = [each for each in where if each.kind == "background" and not each.substance]
+            if any(link.kind in LATERAL_KINDS or each.words.split()[-1].lower() in _STRUCTURES for each in unmade):
+                places = " and ".join(each.words for each in where)
+                self._world.note(f'not modelled: "{self._chunks[at].text.lower()} {places}"')
 
     def _aimed(self, at: int, child_heads: Sequence[int], parent_heads: Sequence[int]) -> None:
         """Read where something is to go: there it is, where the prompt makes it up; a task, where it speaks of it."""

@@ -56,21 +56,6 @@ class Members(ByPlace):
                 return untold[: phrase.count or (None if phrase.plural else 1)]
         return []
 
-    def _holds_others(self, at: int, group: Group) -> bool:
-        """Whether chunk `at` is told by what is in it, and `group` by something else: "the jar with the nuts"."""
-        ours = self._contents(at)
-        heads = [head for head, items in self.known.items() if items and items[0].group is group]
-        theirs = {noun for head in heads for noun in self._contents(head)}
-        theirs |= {self._world.noun(e.child) for e in self._world.supports.values() if e.parent in group.items}
-        other = ours and theirs and not ours & theirs and len(group.items) == 1
-        return bool(other) and self._world.likely.hollow(group.noun)
-
-    def _contents(self, at: int) -> set[str]:
-        """The noun of the apples of "the bowl with the apples" at chunk `at`; none without."""
-        have, thing = (*self._chunks[at + 1 : at + 3], None, None)[:2]
-        named = have is not None and have.text == "with" and thing is not None and thing.phrase is not None
-        return {thing.phrase.noun} - {""} if named else set()  # type: ignore[union-attr]
-
     def _besides(self, at: int) -> set[Group]:
         """Groups that other phrases name, to which chunk `at` is related."""
         partners = {head for one, other in self.related for head in (*one, *other) if at in (*one, *other)} - {at}
@@ -159,6 +144,10 @@ class Members(ByPlace):
         if (phrase.words.lower() == "the one" or counted) and (subject := self._subject_before(at)):
             # "The book on the chair is red, the one on the desk is blue": another book.
             return self._one_like(subject, phrase)
+        if not phrase.definite and phrase.count:
+            # "Two trays: ... on the second, two cups": of the trays none.
+            upon = [item.group for one, other in self.related if at in one for head in other for item in self.ref(head)]
+            groups = [group for group in groups if group not in upon]
         if where or (not words.colours and (words.size_word or phrase.head == "one")):
             besides = self._besides(at)
             # "the smaller of two boxes inside the larger one"
@@ -242,9 +231,11 @@ class Members(ByPlace):
             several = [group for group in groups if len(group.items) > 1]
             tower = next((group for group in several if group.height > 1), next(iter(several), None))
             return self._at(tower.items, where, phrase) if tower is not None else []
-        if where in ("left", "right") and "one" in phrase.words.lower().split():
-            # "The left tray carries three muffins, the right one a knife": another tray.
-            beside = [group for group in groups if len(group.items) == 1 and group.items[0].place == OPPOSITE[where]]
+        if where in COUNTED or (where in ("left", "right") and "one" in phrase.words.lower().split()):
+            # "The left tray carries three muffins, the right one a knife", "Books fill the top shelf; the second ...":
+            # another tray, another shelf.
+            others = {*COUNTED, *lexicon.LEVELS} - {where} if where in COUNTED else {OPPOSITE[where]}
+            beside = [group for group in groups if len(group.items) == 1 and group.items[0].place in others]
             if beside:
                 return self._one_like(beside[0].items, phrase)
         if self.asked and where and phrase.definite and (one := one_of_unlike(world, world.together, where)):

@@ -110,9 +110,11 @@ class Pronouns:
         """What "it" means: what makes the relation likely, the subject of the clause before, then what is nearest."""
         phrase = self._chunks[at].named
         plural = phrase.head in _PLURAL
-        # "Under the lamp lies a map. A pen is on the map and next to it is a cup": not next to the lamp.
+        # "Under the lamp lies a map. A pen is on the map and next to it is a cup": not next to the lamp; "on the stool
+        # lies a hat, under it a glove": of what was in front in the sentence before nothing is said.
         told = [item for key, items in self.known.items() if key < at for item in items]
-        world_front = self._world.front if at in self.fronts and {*told} <= {*self._world.front, *other} else []
+        opens = at == min(self.fronts, default=-1) and {*told} <= {*self._world.front, *other}
+        world_front = self._world.front if opens else []
         candidates: list[tuple[float, list[Item]]] = []
         starts = [start for start in sorted(self.clauses) if start < at]
         heads = [self.clauses[start] for start in reversed(starts)]
@@ -134,8 +136,10 @@ class Pronouns:
             candidates.append((0.1, [alone, *(item for item in partners if item not in other)]))
         which = phrase.head == "which"
         near = which or phrase.head in lexicon.DEMONSTRATIVES
+        # "Next to it is a mug. Next to that is a pen.": next to the mug, and to no landmark of before.
+        pointing = self._chunks[at].text.lower() in lexicon.DEMONSTRATIVES
         meant = [self.known[key] for key in self.known if key < at and self._is_pronoun(key) and self.known[key]]
-        if meant and not plural:
+        if meant and not (plural or pointing):
             # "behind it a mug, and in front of it a bowl" speaks twice of the same.
             # "A ball is by the box, one is in it, one on it, and one behind it": by none of the balls.
             again = meant[-2:] == [meant[-1]] * 2 and any(self._is_further(key) for key in self.known)
@@ -158,6 +162,9 @@ class Pronouns:
                     "Name the thing itself."
                 )
             candidates.append((-1.2, list(steps[-1].items)))
+        if child and not plural and steps and steps[-1].goal and self._world.is_a(steps[-1].goal[0], lexicon.THIN):
+            # "Wrap the vase in newspaper and stand it in the crate": the vase, whatever goes into crates.
+            candidates.append((-2.0, list(steps[-1].items)))
         if self.stacking and not child and not plural and steps and len(steps[-1].items) == 1:
             # "Put the red block on the mat and stack the other two on it": on the red block.
             candidates.append((-0.8, list(steps[-1].items)))
@@ -168,7 +175,7 @@ class Pronouns:
         if child and plural and steps and steps[-1].manner == "stack":
             # "Stack the bowl on the plate and place them in the tray"
             candidates.append((-1.2, [*steps[-1].items, *steps[-1].goal]))
-        if world_front:
+        if world_front and not pointing:
             # "Behind the sofa: a lamp. In front of it: a rug."; "Left of the sofa is a lamp. In front of it is a rug."
             said = [edge.kind for edge in self._world.laterals if edge.parent in world_front]
             turned = link is None or link.kind not in LATERAL_KINDS or not said or OPPOSITE.get(said[-1]) == link.kind
@@ -179,10 +186,10 @@ class Pronouns:
                 candidates.append((0.25 if bears else -0.4, world_front))
             else:
                 candidates.append((-0.4 if turned else 0.05, world_front))
-        if self._relating.landmark[0] and not near and not self._comes_later(self._relating.landmark[0], at):
+        landmark = [] if near or pointing else self._relating.landmark[0]
+        if landmark and not self._comes_later(landmark, at):
             # "A fork is left of a plate and a knife right of it"
             aside = link is not None and link.kind in LATERAL_SIDES.values() and link.manner != "between"
-            landmark = self._relating.landmark[0]
             across = link is not None and any(
                 edge.parent in landmark and OPPOSITE.get(edge.kind) == link.kind for edge in self._world.laterals
             )
@@ -206,6 +213,10 @@ class Pronouns:
         if below is not None and link is not None and link.kind in SUPPORT_KINDS and self._is_also(at):
             # "A cube is on a bench. A bottle is on it, too."
             candidates.append((-0.8, [below]))
+        opened = any(below in self.known.get(head, ()) for head in self.fronts if head < at)
+        if below is not None and opened and link is not None and link.manner == "under":
+            # "By a bench is a stool. On the stool lies a hat, under it a glove.": under the stool.
+            candidates.append((0.1, [below]))
         nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         if plural and len(nearest) > 1 and len(nearest[0]) == 1:

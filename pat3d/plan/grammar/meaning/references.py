@@ -110,7 +110,8 @@ class References(Members):
         bare = not (phrase.determined or phrase.plural or phrase.height or phrase.cycle)
         world = self._world
         if (
-            one := self._any_of(at, phrase)
+            one := self._of_contents(at, phrase)
+            or self._any_of(at, phrase)
             or self._of_those(at, phrase)
             or self._counted_late(at, phrase)
             or self._told_by_looks(at, phrase)

@@ -252,16 +252,16 @@ class Relating:
     def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str) -> None:
         world, kind = self.world, link.kind
         parent = parents[0]
-        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW):
-            if world.is_a(parent, tuple(lexicon.OPENED)):
-                pass
-            elif world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
+        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)):
+            if world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
-            elif world.on_floor(parent) or world.is_a(parent, lexicon.TIERED):
+            elif world.on_floor(parent) or world.is_a(parent, lexicon.HOUSING):
                 kind = "on"
                 if world.is_a(parent, lexicon.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
+        elif kind == "on" and world.is_a(parent, lexicon.HOUSING):
+            world.note(f"not arranged: {said.format('on')}; it is placed in it")
         self._settle(children, parents)
         self.cost += crowding(world, children, parent) if kind == "on" else 0.0
         if link.said == "over":

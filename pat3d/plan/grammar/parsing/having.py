@@ -15,6 +15,8 @@ _SAME_OWNER = 0.45
 """Gain where what stands "to its left" and "to its right" has one owner."""
 _LANDMARKS = 0.7
 """Cost of what a clause says with a verb being said of the landmark before it and not of what it begins with."""
+_BY_A_NAIL = 1.4
+"""Cost of what is in or on something being had by the nail or hook before it, on which something hangs."""
 _OF_LAST = 0.35
 """Gain where the last of what is had alone is beside what stands behind it."""
 _ENDED = 0.35
@@ -33,6 +35,11 @@ class Having(Judging):
         # "A bun on a tray has a seed on it": the bun has.
         landmark = self._chunks[owners[0] - 1].kind == "rel" if owners[0] > 1 else False
         cost = _LANDMARKS * (landmark and link.finite and at == owners[-1] + 1)
+        hung = landmark and self._link(owners[0] - 1).kind in SUPPORT_KINDS
+        # "A clipboard hanging from a nail with a pen on it": the clipboard has.
+        cost += _BY_A_NAIL * (
+            hung and self._likely.is_a(self._noun(owners[0]), ("nail", "hook")) and self._set_down(at)
+        )
         for fact in modifier.facts:
             ours = fact[0] == "place" and set(fact[2]) <= set(modifier.heads) and not fact[3]
             if ours and link.manner == "flank":
@@ -196,6 +203,11 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _set_down(self, at: int) -> bool:
+        """Whether what chunk `at` has stands in or on something: "with a pen on it"."""
+        place = self._chunks[at + 2] if at + 2 < len(self._chunks) else None
+        return place is not None and place.kind == "rel" and place.relation.kind in SUPPORT_KINDS
 
     def _mate(self, children: tuple[int, ...], had: Node, owners: tuple[int, ...]) -> tuple[int, ...]:
         """What one thing `children` stand beside that are "beside it" on the level `owners`; () where that is those.

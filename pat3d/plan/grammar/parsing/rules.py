@@ -174,9 +174,10 @@ class Grammar(Listing):
             cost += 0.6 * (self._chunks[modifier.start].text == "and")
             # "The mug is to the left of the stove and to the right of the sink": the mug is both.
             cost += self._beside_too(named, modifier)
-        if named.joints and set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
-            # "a candle, a rose in a vase and a cup": the list goes on behind what is said of the rose.
-            cost += 0.4
+        if set(named.joints) == {","} and kind == "link" and "finite" not in modifier.flags:
+            # "a candle, a rose in a vase and a cup": it goes on behind the rose; but "two figs, a pear, in a bowl".
+            goes_on = any(chunk.kind == "joint" for chunk in self._chunks[max(modifier.heads) :])
+            cost += 0.4 * (modifier.cat == "M" or goes_on)
         if "finite" in named.flags & modifier.flags and (len(named.heads) > 1 or modifier.cat == "M"):
             # "A mug stands on a tray, and a can stands beside it": the mug has its verb.
             cost += 0.5 if modifier.cat == "CM" else 1.5
@@ -244,7 +245,7 @@ class Grammar(Listing):
                 cost += 0.6
             if kind == "place" and len(named.heads) > 1 and self._chunks[at].text != "both":
                 close = self._chunks[at].link is None and "," not in named.joints and named.start > 0
-                cost += 0.2 if close else 0.45
+                cost += (0.2 if close else 0.45) + 0.6 * (len({*map(self._noun, named.heads)}) < len(named.heads))
                 # "A table with four chairs and a vase in the middle": the vase is.
                 cost += 0.4 * (close and self._chunks[at].text == "centre")
             said = (kind, at, named.heads, ()) if kind == "place" else (kind, at, named.heads)
@@ -284,7 +285,8 @@ class Grammar(Listing):
             # "A book under a lamp on a table": the book is on the table; but "under a coat hanging on a hook".
             cost += 0.6
         if any(self._again_named(head, named.heads) for head in modifier.heads):
-            cost += 1.0
+            # "Two trays: on the first, three cups": no trays are on one of them.
+            cost += 3.0 if named.heads < modifier.heads and self._one_of(modifier.heads[:1], named.heads) else 1.0
         another = self._one_more(modifier.heads[0]) and not self._phrase(modifier.heads[0]).definite
         if another and not any(self._phrase(head).modifiers.colours for head in named.heads):
             # "A red cup stands on a desk next to a blue one": the blue one is no desk.
@@ -293,8 +295,7 @@ class Grammar(Listing):
         if len(ones) > 1 and ones[-1] and not any(ones[:-1]) and "finite" not in modifier.flags:
             # "two white, one black, and a red one on top of a white one"
             cost += 0.8 * all(self._phrase(head).kind in HEADLESS for head in named.heads)
-        if any(self._said_of(named, head) for head in modifier.heads):
-            cost += 1.2
+        cost += 1.2 * any(self._said_of(named, head) for head in modifier.heads)
         said = ("rel", at, named.heads, modifier.heads)
         return Node("L", named.start, cost + extra, named.heads, (*facts, said), named.joints, flags)
 

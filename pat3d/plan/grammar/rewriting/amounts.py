@@ -284,7 +284,7 @@ def _multiples(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         (n for n in range(first - 1, -1, -1) if number_of(words[n])), 0)  # fmt: skip
     number = number_of(words[before]) or (1 if words[before] in ("a", "an", "one") else 0)
     told = number or (lexicon.BARE_PLURAL + 1 if end else 0)
-    if not factor or told * factor != int(told * factor):
+    if not factor * told or told * factor != int(told * factor):
         return list(tokens)
     amount = replace(tokens[first], text="one" if told * factor == 1 else str(int(told * factor)))
     if not end:

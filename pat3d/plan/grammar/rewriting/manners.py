@@ -10,6 +10,7 @@ from pat3d.plan.grammar.rewriting import ways
 from pat3d.plan.grammar.rewriting.denials import Told
 from pat3d.plan.grammar.rewriting.in_turn import in_turn
 from pat3d.plan.grammar.rewriting.numbered import LABELLED, labels_end
+from pat3d.plan.grammar.rewriting.of_material import one_of_stuff
 from pat3d.plan.grammar.rewriting.open_questions import choice
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
@@ -66,9 +67,9 @@ _BUNCHES = frozenset({"cluster", "bundle", "bunch", "clump", "huddle", "queue", 
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, _style, _stuffs, _aside, _ready, _if, _knocking, _outlined, _labels, in_turn, _in_that_order,
-                 _such_that, _alternate, _all_but, _trait, _seeming, _in_a_bunch, ways.begun, ways.parallel,
-                 ways.leaping):  # fmt: skip
+    for told in (choice, one_of_stuff, _style, _stuffs, _aside, _ready, _if, _knocking, _outlined, _labels, in_turn,
+                 _in_that_order, _such_that, _alternate, _all_but, _trait, _seeming, _in_a_bunch, ways.begun,
+                 ways.parallel, ways.leaping):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)

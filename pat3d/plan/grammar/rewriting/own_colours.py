@@ -7,6 +7,7 @@ from dataclasses import replace
 from pat3d.plan.grammar.words.lexing import Token
 
 _COLOURS = frozenset({"colour", "color", "colours", "colors"})
+_SAME = frozenset({"own", "its", "their", "same", "matching", "corresponding"})
 
 
 def in_one_way(sentence: list[Token]) -> list[Token]:
@@ -14,23 +15,12 @@ def in_one_way(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     end = next((n for n in range(4, len(words)) if words[n] in _COLOURS), 0)
     start = end
-    while start and words[start - 1] in ("own", "its", "their", "the", "same", "matching", "corresponding", "a"):
+    while start and words[start - 1] in _SAME | {"the", "a"}:
         start -= 1
-    if (
-        not end
-        or start == end
-        or not {*words[start:end]} & {"own", "its", "their", "same", "matching", "corresponding"}
-    ):
+    if start == end or not {*words[start:end]} & _SAME:
         return sentence
-    led = (
-        ["that", "matches"],
-        ["which", "matches"],
-        ["that", "has"],
-        ["which", "has"],
-        ["that", "match"],
-        ["that", "have"],
-    )
-    size = 2 if words[start - 2 : start] in led else 1 if words[start - 1] in ("of", "with", "in", "matching") else 0
+    led = words[start - 2] in ("that", "which") and words[start - 1] in ("matches", "match", "has", "have")
+    size = 2 if led else 1 if words[start - 1] in ("of", "with", "in", "matching") else 0
     if not size or start - size < 3:
         return sentence
     said = [replace(sentence[start - size], text=word) for word in ("of", "the", "same")]

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import LINKS
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
@@ -186,12 +186,9 @@ def known_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         end = at + size + led + noun
         same = [(last, how) for last, other, how in named if other.noun == match.noun and other.said == match.said]
-        again = size and len(same) == 1 and not match.plural and same[0][0] != at and {*words[:led]} <= {*same[0][1]}
-        # "A large pizza and two plates of pizza": what a plate is full of is no pizza named before.
-        before = tokens[max(at - 1, 0)].text
-        portion = nouns.match([before]) is not None or {before, *singulars(before)} & lexicon.PORTIONS
-        full = tokens[at].text == "of" and portion
-        again = again and "several" not in same[0][1] and not full
+        # "The jar of honey" is the jar of what it was of before.
+        again = size and tokens[at].text != "of" and len(same) == 1 and not match.plural and same[0][0] != at
+        again = again and {*words[:led]} <= {*same[0][1]} and "several" not in same[0][1]
         made += tokens[at : at + size]
         if again:
             made.append(replace(tokens[at + size], text="the"))

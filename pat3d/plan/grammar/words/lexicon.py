@@ -5,6 +5,7 @@ from __future__ import annotations
 from pat3d.plan.grammar.words.generics import GENERICS as GENERICS
 from pat3d.plan.grammar.words.generics import MASS_GENERICS as MASS_GENERICS
 from pat3d.plan.grammar.words.parts import PARTS as PARTS
+from pat3d.plan.holders import HOUSING as HOUSING
 
 NUMBERS: dict[str, int] = {
     "zero": 0, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
@@ -261,7 +262,7 @@ NOT_ON_DISH = ("vase", "mug", "cup", "glass", "lamp", "book", "plate", "bowl", "
     "tray")  # fmt: skip
 THIN = ("rug", "mat", "placemat", "tray", "plate", "saucer", "coaster", "carpet", "blanket", "book", "cardboard sheet",
         "cutting board", "table", "towel", "napkin", "pillow", "cushion", "yoga mat", "mouse pad",
-        "trivet", "chessboard", "blotter", "tile", "jigsaw puzzle")  # fmt: skip
+        "trivet", "chessboard", "blotter", "tile", "jigsaw puzzle", "newspaper")  # fmt: skip
 """What can lie under something: "a rug under a table" puts the table on the rug."""
 STACKABLE = ("block", "box", "brick", "cube", "bowl", "crate", "can", "storage box", "wooden block", "dice", "cake")
 """What else is below rather than beside what it is "under", where that does not stand on the floor."""
@@ -288,9 +289,7 @@ ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat"
 WORN = (*ON_HEAD, "t-shirt", "coat", "scarf", "sunglasses", "mitten", "apron", "backpack")
 """What a figure has on, though it may lie anywhere."""
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk",
-    "birdcage", "dollhouse", "file sorter")  # fmt: skip
-TIERED = ("birdcage", "dollhouse", "file sorter")
-"""What things are in that stand on a floor inside of it, where it need not stand on the floor itself."""
+    *HOUSING)  # fmt: skip
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
