@@ -72,11 +72,10 @@ def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[li
     made: list[list[Token]] = []
     for sentence in (each for one in for_each_arm(whole) for each in from_side(one, nouns)):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_making_room(_able(_politely(plain))))))))))
+        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_able(_politely(plain)))))))))
         piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
-        for checked in _checked(plain):
-            for each in _from_stack(checked, piled=piled):
-                made += _all_but(each)
+        for each in _from_stack(plain, piled=piled):
+            made += _all_but(each)
     return made
 
 
@@ -123,25 +122,6 @@ def _able(sentence: list[Token]) -> list[Token]:
         replace(sentence[0], text="move" if words[go + 1] == "moved" else "put"),
         *sentence[1:go],
         *sentence[after:],
-    ]
-
-
-def _making_room(sentence: list[Token]) -> list[Token]:
-    """Read "make room on the tray by moving the glass to the mat" as "move the glass from the tray to the mat"."""
-    words = [token.text for token in sentence]
-    room = words[0] in ("make", "clear", "free") and words[1] in ("room", "space", "some") and "by" in words[4:]
-    on = next((n for n in (2, 3) if words[n : n + 1] and words[n] in ("on", "in")), 0)
-    by = words.index("by", 4) if room else 0
-    verb = base_verb(words[by + 1]) if by else None
-    if not on or not verb or not words[by + 1].endswith("ing") or words[by + 2] not in _LEADS:
-        return sentence
-    to = next((n for n in range(by + 3, len(words)) if sentence[n].mark or link_at(sentence, n)), 0)
-    source = [replace(sentence[on], text="from"), *sentence[on + 1 : by]]
-    return [
-        replace(sentence[by + 1], text=verb, start=sentence[0].start),
-        *sentence[by + 2 : to],
-        *source,
-        *sentence[to:],
     ]
 
 
@@ -283,19 +263,6 @@ def _nothing_there(sentence: list[Token]) -> list[Token]:
         return sentence
     empty = [replace(sentence[there], text=word) for word in ("an", "empty")]
     return [*sentence[:there], *empty, *sentence[name + 1 :]]
-
-
-def _checked(sentence: list[Token]) -> list[list[Token]]:
-    """Tell "check whether the kettle is empty and put it on the stove" as "the kettle", "put it on the stove"."""
-    words = [token.text for token in sentence]
-    asks = words[0] in ("check", "see", "test") and words[1] in ("whether", "if") and words[2] in _LEADS
-    verb = next((n for n in range(4, len(words)) if words[n] in lexicon.COPULAS), 0) if asks else 0
-    joint = next((n for n in range(verb + 2, len(words) - 2) if words[n] in ("and", "then", ",")), 0) if verb else 0
-    while joint and words[joint] in ("and", "then", ","):
-        joint += 1
-    if not joint or base_verb(words[joint]) != words[joint]:
-        return [sentence]
-    return [[*sentence[2:verb], replace(sentence[-1])], sentence[joint:]]
 
 
 def _let(sentence: list[Token]) -> list[Token]:

@@ -29,14 +29,14 @@ from pat3d.plan.grammar.rewriting.gapping import ungapped
 from pat3d.plan.grammar.rewriting.in_colours import in_colours
 from pat3d.plan.grammar.rewriting.joined_ranks import with_own_nouns
 from pat3d.plan.grammar.rewriting.levels import at_levels
-from pat3d.plan.grammar.rewriting.open_questions import refuse_inserted, refuse_negations
+from pat3d.plan.grammar.rewriting.open_questions import refuse_negations
 from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
 from pat3d.plan.grammar.rewriting.ranges import ranged
 from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
-from pat3d.plan.grammar.rewriting.shorthand import sides, the_ones
+from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
 from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_surface, stood_where
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
@@ -80,7 +80,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = sides(the_ones(one_of_two(in_colours(tokens, nouns), nouns)), nouns)
+    tokens = sides(one_of_two(in_colours(tokens, nouns), nouns), nouns)
     tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
@@ -91,7 +91,6 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
     tokens = _beside_the_first(tokens, nouns)
-    refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _counted_after(_owned(_lid_on(tokens), nouns), nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))

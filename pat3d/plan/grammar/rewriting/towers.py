@@ -70,7 +70,7 @@ def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if count and count < len(parts) + (len(parts) == 1):
         return list(tokens)
     lowest = [part for part in named if part is not None]
-    if noun is not None and (count > len(parts) or (not count and all(map(_is_sized, parts)))):
+    if noun is not None and count > len(parts):
         *number, others = _others(noun, count - len(parts))
         lowest.insert(len(parts) > 1, [*number, *look, others])
     like = tokens[0]
@@ -104,12 +104,6 @@ def _others(noun: Token, more: int) -> list[Token]:
         return [replace(noun, text=_plural(noun, 2))]
     number = next(word for word, value in lexicon.NUMBERS.items() if value == more and word not in ("an", "single"))
     return [replace(noun, text=number if more > 1 else "a"), replace(noun, text=_plural(noun, more))]
-
-
-def _is_sized(part: Sequence[Token]) -> bool:
-    """Whether `part` is told by its size alone: "the smallest one"."""
-    bare = [token.text for token in part if token.text not in _ARTICLES]
-    return len(bare) == 1 and bare[0] in _PLAIN
 
 
 def _asked_for(words: list[str]) -> bool:

@@ -109,7 +109,6 @@ _RAINBOWS = tuple(
     for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
                  f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
 )  # fmt: skip
-_OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
@@ -120,7 +119,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_alike(_alternating(_hued(_begun(tokens))), nouns))
+    usual = _plain(_alike(_alternating(_hued(tokens)), nouns))
     tokens = respectively(_the_one(_number_of(_compared(_rainbow(usual, nouns), nouns))))
     return made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
 
@@ -159,13 +158,6 @@ def _the_one(tokens: Sequence[Token]) -> Sequence[Token]:
             the = [replace(tokens[at], text=word) for word in ("the", "one")]
             return [*tokens[:at], *the, *tokens[at + 1 : that], *tokens[verb + 1 :]]
     return tokens
-
-
-def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
-    words = [token.text for token in tokens]
-    opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
-    return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 
 def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
