@@ -27,26 +27,14 @@ def adrift(it: Compared, found: Sequence[str]) -> Iterator[str]:
     nouns = {obj.name: obj.noun for obj in it.plan.objects}
     tops = any(noun in _BEARING and it.support(name) is None for name, noun in nouns.items())
     asked = bool(it.tasks.strip() or it.undone)
-    if not tops or FLOOR & {*it.said.words} or not it.said.claims:
+    if not tops or asked or FLOOR & {*it.said.words} or not it.said.claims:
         return
     loose = [obj for obj in it.plan.objects if _on_ground(it, obj) and not _beside_furniture(it, obj)]
-    # "There are three jars in a row and a tray on a desk. Put the last one on the tray."
-    loose = [obj for obj in loose if not asked or _in_row_before_place(it, obj)]
     quoted = " ".join((it.quoted, *found)).lower()
     for phrase in dict.fromkeys(obj.phrase.lower() for obj in loose if obj.phrase):
         named = [mention.text for mention in it.said.mentions if phrase.endswith(mention.text)]
         if not any(f'{said}"' in quoted for said in (phrase, *named)):
             yield f'"{phrase}": where is not said; on the ground'
-
-
-def _in_row_before_place(it: Compared, obj: PlannedObject) -> bool:
-    """Whether `obj` stands in a row that is told of in one sentence with a table that something is on."""
-    row = any(one.kind == "row" and obj.name in one.objects for one in it.plan.arrangements)
-    parts = {mention.part for mention in it.said.mentions if obj in it.of(mention)}
-    return row and any(
-        claim.place in ("on", "in") and claim.part in parts and claim.of is not None and claim.of.noun in _BEARING
-        for claim in it.said.claims
-    )
 
 
 def _on_ground(it: Compared, obj: PlannedObject) -> bool:

@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.words import DEEDS, REQUESTS
+from pat3d.plan.audit.words import DEEDS
 
 _MOVING = frozenset({"take", "bring", "carry", "move", "deliver", "transfer", "return", "push", "slide", "get"})
 _PUTTING = frozenset({"put", "place", "move", "set", "lay", "insert", "drop", "stack", "pick"})
 _REACH = 12
 """Words from what is taken to where it is taken."""
-_ARMED = frozenset({"bear", "doll", "statue", "figurine", "robot", "monkey", "rabbit", "snowman", "teddy", "figure",
-                    "sculpture", "clown", "gnome", "soldier", "penguin"})  # fmt: skip
-"""Last words of what holds something in its arms."""
 _SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave"})
 _DEPTHS = frozenset({"bottom", "back", "rear", "front", "far"})
 _GOALS = frozenset({"of", "to", "into", "onto", "in", "on"})
@@ -29,7 +25,6 @@ def requests(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _nothing_inside(it)
     yield from _one_more(it)
     yield from _posed_already(it)
-    yield from _held_in_arms(it)
     yield from _below(it)
     yield from _handed(it)
     yield from _out_of(it)
@@ -112,12 +107,6 @@ def _nothing_inside(it: Compared) -> Iterator[tuple[int, str]]:
         yield 0, f'"{name}" is to be emptied; what is in it is not said'
 
 
-def lost(it: Compared) -> bool:
-    """Whether the first thing that is asked for is neither a task nor in a note: "get me the pen, then close it"."""
-    first = next((word for word in it.said.words if word not in ("please", "could", "can", "you", "now")), "")
-    return first in REQUESTS and not it.tasks.strip() and first not in it.undone and "is read as" not in it.quoted
-
-
 def _one_more(it: Compared) -> Iterator[tuple[int, str]]:
     """What "a box" is one more of, though several were told of before: "there are two boxes. A ball is in a box"."""
     words = it.said.words
@@ -147,23 +136,6 @@ def _posed_already(it: Compared) -> Iterator[tuple[int, str]]:
         before = next((one for one in it.said.mentions if one.end == at - 1), None)
         if before is not None and turned & {obj.name for obj in it.which(before)} and "upside" not in it.quoted:
             yield at, f'"upside down" of "{before.text}" is read as how it stands before the task'
-
-
-def _held_in_arms(it: Compared) -> Iterator[tuple[int, str]]:
-    """What an animal or a doll holds, which the plan puts on it."""
-    words = it.said.words
-    for claim in it.said.claims:
-        owner = next((one for one in it.said.mentions if one.end == claim.at), None)
-        holds = claim.place == "holding" and words[claim.at] in ("holding", "holds", "carrying", "carries")
-        if not holds or claim.of is None or it.named(claim.said) or not (
-            (owner is not None and {*owner.noun.split()} & _ARMED) or any(
-                {*one.noun.split()} & _ARMED for one in it.said.mentions if one.end <= claim.at)):  # fmt: skip
-            continue
-        near = owner if owner is not None and {*owner.noun.split()} & _ARMED else None
-        told = near or next(one for one in it.said.mentions if {*one.noun.split()} & _ARMED)
-        told_of = re.search(rf'{re.escape(told.text)}" {re.escape(words[claim.at])} "', it.quoted)
-        if not told_of and (near is not None or (owner is not None and owner.noun in it.furniture)):
-            yield claim.at, f'not arranged: "{told.text}" {claim.said}'
 
 
 def _below(it: Compared) -> Iterator[tuple[int, str]]:

@@ -31,7 +31,6 @@ from pat3d.plan.audit.places import (
     insides,
     middle_ones,
     middles,
-    on_the_other,
     opposite,
     others,
     parts,
@@ -42,7 +41,6 @@ from pat3d.plan.audit.places import (
 )
 from pat3d.plan.audit.postured import posed_twice, postured
 from pat3d.plan.audit.ranked import ranked
-from pat3d.plan.audit.rings import rings
 from pat3d.plan.audit.sides import sides
 from pat3d.plan.audit.storeys import heights, storeys
 from pat3d.plan.audit.subjects import misattached
@@ -76,8 +74,8 @@ from pat3d.scene.relations import carriers_of
 
 _AUDITS = (
     for_each, pairs, one_each, grounded, behind_all, middles, middle_ones, others, parts, the_one, without, requests,
-    shares, chained, confused, numbers, rows, choices, sizes, storeys, heights, ranked, matched, rings, shared_colours,
-    listed_colours, insides, carried, on_the_other, opposite, contents, meant, postured, sides, again, joined,
+    shares, chained, confused, numbers, rows, choices, sizes, storeys, heights, ranked, matched, shared_colours,
+    listed_colours, insides, carried, opposite, contents, meant, postured, sides, again, joined,
     of_the_counted, one_more, fronted, between_own, fallen_out, posed_twice, tallies,
 )  # fmt: skip
 """Each yields the words at which a sentence and a plan differ, with the note that says how."""

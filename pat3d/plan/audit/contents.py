@@ -6,14 +6,12 @@ from collections.abc import Iterator
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.text import Claim, Mention
-from pat3d.plan.audit.words import FINITE, HOLLOW, PARTICIPLES, POSED
+from pat3d.plan.audit.words import FINITE, PARTICIPLES, POSED
 
 _NEAR = 3
 """Words from a verb to the relation word behind it."""
 CLOSING = frozenset({"lid", "cap", "cork", "stopper"})
 """Last words of what closes a vessel."""
-_OPEN = HOLLOW | {"bottle", "teapot", "kettle", "thermos", "casserole"}
-"""Last words of what is closed so."""
 
 
 def contents(it: Compared) -> Iterator[tuple[int, str]]:
@@ -22,7 +20,6 @@ def contents(it: Compared) -> Iterator[tuple[int, str]]:
         yield from _held_elsewhere(it, claim)
         yield from _not_inside(it, claim)
         yield from _after_it(it, claim)
-    yield from _lids(it)
     yield from _bracketed(it)
 
 
@@ -84,19 +81,6 @@ def _after_it(it: Compared, claim: Claim) -> Iterator[tuple[int, str]]:
     below = carriers(it, after)
     if below and below <= carriers(it, first) and any(it.support(name) for name in below):
         yield after.start, f'"{" ".join(words[after.first : after.end])}" is read as {claim.place} "{min(below)}" too'
-
-
-def _lids(it: Compared) -> Iterator[tuple[int, str]]:
-    """Lids beside what they close: "a pan is on the stove with a lid on it"."""
-    nouns = {obj.name: obj.noun for obj in it.plan.objects}
-    for claim in it.said.claims:
-        lid = subject(it, claim)
-        told = claim.of is None and claim.place == "on" and it.said.words[claim.end - 1 : claim.end] == ["it"]
-        if not told or lid is None or lid.noun.split()[-1] not in CLOSING or it.named(lid.text):
-            continue
-        level = {name for name in carriers(it, lid) if nouns[name].split()[-1] not in _OPEN - {"tray", "plate"}}
-        if level and any(noun.split()[-1] in _OPEN for noun in nouns.values()):
-            yield claim.at, f'"{lid.text} {claim.said}" is read as on "{min(level)}"'
 
 
 def _bracketed(it: Compared) -> Iterator[tuple[int, str]]:

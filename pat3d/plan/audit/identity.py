@@ -16,7 +16,6 @@ from pat3d.plan.audit.words import (
     BREAKING,
     EACH,
     GUESTS,
-    HEADLESS,
     NUMBERS,
     PACKETS,
     PIECES,
@@ -67,7 +66,6 @@ def confused(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _multiplied(it)
     yield from ((0, note) for note in _numbered(it))
     yield from _beheaded(it)
-    yield from _elided(it)
     yield from _parts_as_things(it)
     yield from _unpacked(it)
     yield from _made_otherwise(it)
@@ -174,20 +172,6 @@ def _beheaded(it: Compared) -> Iterator[tuple[int, str]]:
             last = obj.phrase.lower().split()[-1:]
             if last == [head] and not own & {head, *singulars(head)} and head not in it.quoted:
                 yield mention.start, f'"{mention.text} {head}" is made as a "{obj.noun}"'
-
-
-def _elided(it: Compared) -> Iterator[tuple[int, str]]:
-    """What is made as something named before though a noun stands behind it: the chopsticks of "on a small stand"."""
-    words = it.said.words
-    for obj in it.plan.objects:
-        phrase = obj.phrase.lower().split()
-        if len(phrase) != 2 or phrase[0] not in ("a", "an") or phrase[1] in HEADLESS | {"one"} or phrase[1] in obj.noun:
-            continue
-        for at in (at + len(phrase) for at in range(len(words)) if words[at : at + len(phrase)] == phrase):
-            named = any(mention.end == at for mention in it.said.mentions)
-            noun = not named and words[at : at + 1] in (["stand"], ["rest"], ["lie"], ["hang"])
-            if noun and words[at] not in it.told:
-                yield at, f'"{" ".join(words[at - len(phrase) : at + 1])}" is made as "{obj.noun}"'
 
 
 def _parts_as_things(it: Compared) -> Iterator[tuple[int, str]]:

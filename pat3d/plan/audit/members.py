@@ -8,7 +8,6 @@ from itertools import pairwise
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.compared import Compared
-from pat3d.plan.audit.each import for_each
 from pat3d.plan.audit.numbers import had_by_each
 from pat3d.plan.audit.subjects import row_of
 from pat3d.plan.audit.text import Claim, Mention
@@ -31,7 +30,7 @@ _PLURALS = frozenset({"they", "them", "both"})
 def shares(it: Compared) -> Iterator[tuple[int, str]]:
     """What only some of several have though it is said of more."""
     for find in (_held_by_all, _the_rest, _by_colour, _told_apart, _gapped, _all_posed, _unstacked,
-                 _plural_pronouns, _accompanied, _all_but_one, _told_together, _out_of_each,
+                 _plural_pronouns, _all_but_one, _told_together, _out_of_each,
                  _counted_list):  # fmt: skip
         yield from find(it)
 
@@ -243,25 +242,6 @@ def _related(it: Compared, claim: Claim, at: int) -> set[str]:
         return set()
     of = {obj.name for obj in it.which(claim.of)}
     return {a for a, kind, b in it.edges if kind in kinds and b in of}
-
-
-def _accompanied(it: Compared) -> Iterator[tuple[int, str]]:
-    """What each of several has that are named by one singular: "on each side stands a stool with a hat"."""
-    words = it.said.words
-    for claim in it.said.claims:
-        owner = next((one for one in it.said.mentions if one.end == claim.at), None)
-        thing = claim.of
-        if claim.place not in ("with", "holding") or owner is None or thing is None or owner.plural:
-            continue
-        phrase = words[owner.first : owner.end]
-        owners = [obj for obj in it.plan.objects if obj.phrase.lower().split() == phrase]
-        things = it.which(thing)
-        if owner.number != 1 or thing.number != 1 or thing.plural or not 0 < len(things) < len(owners):
-            continue
-        alike = [one for one in it.said.mentions if words[one.first : one.end] == phrase]
-        counted = any(f'of "{thing.text}"; there are' in note for _, note in for_each(it))
-        if len(alike) == 1 and not counted and not it.named(thing.text):
-            yield claim.at, f'not as said: "{claim.said}" of {len(owners)} of "{owner.text}"; {len(things)} are there'
 
 
 def _all_but_one(it: Compared) -> Iterator[tuple[int, str]]:

@@ -42,9 +42,7 @@ def _idle(it: Compared, note: str) -> bool:
     if found[2] is not None:
         if said == ["to"] and found[2] in ("top", "the top"):
             return _stands_so(it, "bottom to top")
-        if said == ["with"] and _carried_before(it, found[2].lower()):
-            return True
-        return said == ["with"] and bool(SHAPES_OF_STACKS & set(words)) and _all_stacked(it, found[2].lower())
+        return said == ["with"] and _carried_before(it, found[2].lower())
     if set(said) & SHAPES_OF_STACKS and len(said) == 2 and (said[0] in NUMBERS or said[0].isdecimal()):
         # "one tower", of which the plan has one.
         return _towers(it) == [NUMBERS[said[0]] if said[0] in NUMBERS else int(said[0])]
@@ -104,12 +102,6 @@ def _stands_so(it: Compared, said: str) -> bool:
         if not (told | sizes) & {*end.colours, *end.adjectives, *end.name.split()}:
             return False
     return side in words
-
-
-def _all_stacked(it: Compared, phrase: str) -> bool:
-    """Whether what `phrase` names is in one stack: the blocks of "a tower with two blocks"."""
-    names = {obj.name for obj in it.plan.objects if obj.phrase.lower() == phrase}
-    return len(names) > 1 and any(names <= {name, *it.above(name)} for name in names)
 
 
 def _true(it: Compared, note: str) -> bool:

@@ -187,20 +187,6 @@ def _called(obj: PlannedObject) -> str:
     return obj.name.rstrip(" 0123456789").split()[-1]
 
 
-def on_the_other(it: Compared) -> Iterator[tuple[int, str]]:
-    """What is on the other of two and stands where what is on the one does."""
-    words = it.said.words
-    for at in range(3, len(words) - 2):
-        one = next((n for n in range(at) if words[n : n + 3] == [words[at], "one", "of"]), 0)
-        if words[at] not in ("on", "in") or words[at + 1 : at + 3] != ["the", "other"] or not one:
-            continue
-        before = [[mention for mention in it.said.mentions if mention.end <= n][-1:] for n in (one, at)]
-        names = [{obj.name for mention in each for obj in it.which(mention)} for each in before]
-        carriers = [{name for child in each for name in it.above(child)[:1]} for each in names]
-        if names[0] != names[1] and carriers[0] and carriers[0] == carriers[1]:
-            yield at, f'not as said: "{words[at]} the other"'
-
-
 def insides(it: Compared) -> Iterator[tuple[int, str]]:
     """What is said to be in something closed, or taken out of it, and is placed on it."""
     words = it.said.words

@@ -86,11 +86,7 @@ def _span(tokens: Sequence[Token]) -> tuple[int, int, list[Token]] | None:
             continue
         start = _leads(tokens, words, at)
         if start < at:
-            other = _other(tokens, words, start, end)
-            if other is None:
-                return start, end, []
-            stop, thing = other
-            return start, stop, [replace(tokens[start], text="near"), *thing]
+            return start, end, []
         if words[at - 1] == "and" and (start := _between(words, at)):
             return start, end, [replace(tokens[start], text="near"), *tokens[start + 1 : at - 1]]
     return None
@@ -120,14 +116,6 @@ def _leads(tokens: Sequence[Token], words: Sequence[str], at: int) -> int:
     while start < at and start and words[start - 1] in _DEGREES:
         start -= 1
     return start
-
-
-def _other(tokens: Sequence[Token], words: Sequence[str], start: int, end: int) -> tuple[int, list[Token]] | None:
-    """The end of "between the robot and the bowl" and its bowl; None where it is between nothing."""
-    if words[start] != "between" or words[end] != "and":
-        return None
-    stop = next(n for n in range(end, len(words)) if tokens[n].mark or (n > end and link_at(tokens, n)))
-    return stop, list(tokens[end + 1 : stop])
 
 
 def _between(words: Sequence[str], at: int) -> int:

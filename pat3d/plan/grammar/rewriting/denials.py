@@ -30,8 +30,6 @@ _WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "
 _WITHOUT = (("free", "of"), ("free", "from"), ("devoid", "of"), ("void", "of"), ("bare", "of"), ("bereft", "of"),
             ("missing",), ("lacking",), ("lacks",), ("lack",), ("minus",), ("sans",), ("empty", "of"), ("out", "of"),
             ("low", "on"), ("short", "of"))  # fmt: skip
-_ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
-_OTHERS = frozenset({"other", "others", "rest", "second"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
         ("but",), ("except",), ("save",), ("besides",), ("than",))  # fmt: skip
 
@@ -39,34 +37,13 @@ _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_the_other, _nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind,
-                 _nothing, _none_of, _missing, _among, _useless, _all_listed):  # fmt: skip
+    for told in (_nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
+                 _among, _useless, _all_listed):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
             return rest, [*denied, *more]
     return list(tokens), []
-
-
-def _not_at(words: list[str], at: int) -> int:
-    """How many words are "isn't", "is not" at word `at`; 0 where they are not."""
-    said = words[at : at + 2]
-    return 1 if {*said[:1]} & _ISNT else 2 if {*said[:1]} & FINITE and said[1:] == ["not"] else 0
-
-
-def _the_other(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "one of the two mugs is on a coaster, the other isn't" without the other."""
-    for at in range(2, len(words) - 2):
-        lead = words[at - 1] in ("and", "but", "while", "whereas")
-        start = at - lead - (words[at - 1 - lead] == ",")
-        one = at + 1 + (words[at + 1] == "two")
-        size = _not_at(words, one + 1 + (words[one + 1] in ("one", "ones"))) if one + 1 < len(words) else 0
-        if words[at] != "the" or words[one] not in _OTHERS or not size or start == at:
-            continue
-        end = next(n for n in range(one, len(words)) if tokens[n].mark)
-        if "but" not in words[one:end]:
-            return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[end - 1])]
-    return None
 
 
 def _nor(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -107,17 +84,8 @@ def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         part = {words[behind - 1], *singulars(words[behind - 1])} & (lexicon.PARTS | lexicon.PORTIONS)
         if behind > start and (part or run_out or nouns.longest(words[start:behind]) is not None):
             without = replace(tokens[at], text="without", end=tokens[start - 1].end)
-            said = words[at] in ("lacks", "lack") or words[at - 1] in lexicon.COPULAS
-            return [*tokens[: at - which], without, *(_joined_by_or(tokens[start:]) if said else tokens[start:])], []
+            return [*tokens[: at - which], without, *tokens[start:]], []
     return None
-
-
-def _joined_by_or(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` behind "lacks", with "a plate, a fork and a knife" as "a plate, a fork or a knife"."""
-    stop = next(n for n, token in enumerate(tokens) if token.mark and token.text != ",")
-    if {token.text for token in tokens[:stop]} & FINITE:
-        return list(tokens)
-    return [replace(token, text="or") if token.text == "and" else token for token in tokens[:stop]] + [*tokens[stop:]]
 
 
 def _condition(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -272,19 +240,6 @@ def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="are"), *number]
     subject = tokens[start + (words[start] == "the" and bool(set(named) & lexicon.NUMBERS.keys())) : verb]
     return [*there, *subject, *tokens[end:]], [(tokens[0], tokens[end - 1])]
-
-
-def _missing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "one shoe is under the bed, the other nowhere to be found" without the other."""
-    if "nowhere" not in words[3:]:
-        return None
-    at = words.index("nowhere", 3)
-    start = next((n for n in range(at, 0, -1) if words[n] in (",", "and", "but")), 0)
-    end = next(n for n in range(at, len(words)) if tokens[n].mark)
-    inside = words[start + 1 : at]
-    if not start or nouns.match(inside[-1:]) or words[at + 1 : at + 3] != ["to", "be"]:
-        return None
-    return [*tokens[:start], *tokens[end:]], [(tokens[start + 1], tokens[end - 1])]
 
 
 def _among(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -34,8 +34,7 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*_nearer(tokens, nouns), tokens[-1]])
     ]
-    tokens = _another_place(_on_another(tokens, nouns), nouns)
-    return _shared_landmark(_last_in_order(_verb_again(_each_with(_of_which(_one_upon(tokens))))))
+    return _shared_landmark(_last_in_order(_verb_again(_of_which(_one_upon(tokens)))))
 
 
 def _nearer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -170,35 +169,6 @@ def _one_upon(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
-def _on_another(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a hat on one chair and a bag on the other" as "a hat on one chair and a bag on another"."""
-    words = [token.text for token in tokens]
-    for at in range(len(words) - 5):
-        named = words[at] in ("on", "in") and words[at + 1] == "one" and nouns.match([words[at + 2]])
-        if named and any(words[at + 2] in singulars(word) for word in words[:at]):
-            # "Two chairs: a cat on one chair and a dog on the other"
-            continue
-        other = [words[at], "the", "other"]
-        told = next((n for n in range(at + 3, len(words) - 3) if words[n : n + 3] == other and tokens[n + 3].mark), 0)
-        if named and told:
-            another = replace(tokens[told + 1], text="another", end=tokens[told + 2].end)
-            return [*tokens[: told + 1], another, *tokens[told + 3 :]]
-    return list(tokens)
-
-
-def _another_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "in a jar are nuts, and in another, bolts" as "..., and in another are bolts"."""
-    words = [token.text for token in tokens]
-    for at in range(3, len(words) - 3 if link_at(tokens, 0) else 0):
-        head = at + 1 if words[at + 1] == "another" else at + 2 if words[at + 1 : at + 3] == ["the", "other"] else 0
-        if not head or words[at] not in ("in", "on") or words[at - 1] not in ("and", ",", "while"):
-            continue
-        comma = head + 1 + (nouns.match([words[head + 1]]) is not None)
-        if words[comma] == "," and not any(token.text in STANDING or token.mark for token in tokens[comma + 1 : -1]):
-            return [*tokens[:comma], replace(tokens[comma], text="are", mark=False), *tokens[comma + 1 :]]
-    return list(tokens)
-
-
 def _of_which(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "three apples, of which one is green" as "three apples, one of which is green"."""
     words = [token.text for token in tokens]
@@ -300,18 +270,6 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
-def _each_with(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "three bowls with two eggs each" as "three bowls, each with two eggs"."""
-    words = [token.text for token in tokens]
-    for each in (at for at in range(4, len(words) - 1) if words[at] == "each" and tokens[at + 1].mark):
-        had = next((n for n in range(each - 1, max(each - 6, 1), -1) if words[n] == "with"), 0)
-        counted = had and words[had + 1] in lexicon.NUMBERS and words[had - 1].endswith("s")
-        if counted and not any(link_at(tokens, n) or tokens[n].mark for n in range(had + 1, each)):
-            comma, every = replace(tokens[had], text=",", mark=True), replace(tokens[had], text="each")
-            return [*tokens[:had], comma, every, *tokens[had:each], *tokens[each + 1 :]]
-    return list(tokens)
-
-
 def _verb_again(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "put the jam left of the plate and the mug on it" as "... and put the mug on it"."""
     words = [token.text for token in tokens]
@@ -339,24 +297,6 @@ def _full_sides(tokens: Sequence[Token]) -> list[Token]:
         made += [replace(token, text=text) for text in ("to", "the")] if at in bare else []
         made.append(token)
     return made
-
-
-def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a pot, its lid beside it, on a hob" as "a pot and a lid on a hob, and the lid is beside it"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        link = next((n for n in range(at + 3, min(at + 6, len(words))) if link_at(tokens, n)), 0)
-        end = link + link_at(tokens, link) if link else 0
-        named = words[at : at + 2] == [",", "its"] and nouns.match([words[at - 1]])
-        if not (named and end and words[end : end + 2] == ["it", ","] and nouns.match([words[link - 1]])):
-            continue
-        stop = next(n for n in range(end + 2, len(words)) if words[n] == ".")
-        a, the, joint, verb = (replace(tokens[at + 1], text=text) for text in ("a", "the", "and", "is"))
-        thing, goes_on = tokens[at + 2 : link], words[end + 2] == "and"
-        listed = [tokens[at] if goes_on else joint, a, *thing, *tokens[end + 2 - goes_on : stop]]
-        told = [joint, the, *thing, verb, *tokens[link:end], the, tokens[at - 1]]
-        return [*tokens[:at], *listed, tokens[at], *told, *tokens[stop:]]
-    return list(tokens)
 
 
 def fronted(tokens: Sequence[Token]) -> list[Token]:

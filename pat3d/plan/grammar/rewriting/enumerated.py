@@ -290,20 +290,10 @@ def _kinds(tokens: list[Token], nouns: Nouns) -> list[Token]:
     return tokens
 
 
-def _at_a_place(words: Sequence[str], at: int) -> bool:
-    """Whether "at the bottom" or "on top" stands at token `at`."""
-    place = words[at + 1 : at + 3] if words[at : at + 1] in (["at"], ["in"], ["on"]) else []
-    return bool({*place} & {"top", "bottom", "middle", "centre", "center"})
-
-
 def _oranges(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a red, an orange and a blue box" so that "orange" is a colour there."""
     made = list(tokens)
     words = [token.text for token in tokens]
-    for at in (n for n in range(len(words) - 3) if words[n] == "orange" and _at_a_place(words, n + 1)):
-        if any(is_colour_word(word) and word != "orange" and _at_a_place(words, n + 1) for n, word in enumerate(words)):
-            # "red at the bottom, orange in the middle"
-            made[at] = replace(tokens[at], text="orange-colored")
     for at in (n for n in range(1, len(words) - 2) if words[n] == "orange" and words[n + 1] in (",", "and")):
         before = at
         while before and (words[before - 1] in (",", "and") or words[before - 1] in _LEADING

@@ -14,7 +14,6 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.amounts import counted
 from pat3d.plan.grammar.rewriting.commands import allowed
 from pat3d.plan.grammar.rewriting.displaced import (
-    absolute,
     asked,
     by_which,
     fronted,
@@ -34,10 +33,9 @@ from pat3d.plan.grammar.rewriting.open_questions import refuse_inserted, refuse_
 from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
-from pat3d.plan.grammar.rewriting.ranges import ranged
 from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
-from pat3d.plan.grammar.rewriting.shorthand import sides, the_ones
+from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
 from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_surface, stood_where
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
@@ -81,20 +79,20 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     Raises:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
-    tokens = sides(the_ones(one_of_two(in_colours(tokens, nouns), nouns)), nouns)
-    tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
+    tokens = sides(one_of_two(in_colours(tokens, nouns), nouns), nouns)
+    tokens = at_levels(alternating(with_own_nouns(tokens, nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
+    tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
     tokens = _beside_the_first(tokens, nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
-    tokens = _counted_after(lid_of(lid_on(tokens), nouns), nouns)
+    tokens = lid_of(lid_on(tokens), nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))
     return of_what(_relatives(by_which(borne, nouns), nouns))
 
@@ -246,24 +244,6 @@ def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             to = replace(tokens[start], text="to") if beside else tokens[start]
             side = tokens[at + 1 : at + 2] if beside else tokens[at + 1 : after]
             return [*tokens[:start], to, the, *side, of, *owner, *tokens[after:]]
-    return list(tokens)
-
-
-def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "bowls, of which there are two," as "two bowls"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        start = at + (words[at] == ",")
-        if words[start : start + 3] != ["of", "which", "there"] or words[start + 3] not in lexicon.COPULAS:
-            continue
-        size = next((n for n in (3, 2, 1) if n <= at and nouns.match(words[at - n : at])), 0)
-        number = start + 4
-        if size and words[number] in lexicon.NUMBERS and tokens[number + 1].mark:
-            after = number + 1 + (words[number + 1] == ",")
-            head = tokens[: at - size]
-            while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
-                size, head = size + 1, head[:-1]
-            return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
     return list(tokens)
 
 

@@ -98,7 +98,7 @@ def _told(text: str, tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[li
     while first and (is_modifier(words[first - 1]) and words[first - 1] not in _LEADING):
         first -= 1
     total = numeral(words[first - 1]) if first else 0
-    if not closing or name == at or total < 2 or any(map(_says_more, words[first:name])):
+    if not closing or name == at or total < 2:
         return None
     for close in range(at + 4, min(at + _LONGEST, len(tokens) - 1)):
         if text[tokens[close].start : tokens[close].end] != closing:
@@ -117,11 +117,6 @@ def _told(text: str, tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[li
         if closing != ",":
             return None
     return None
-
-
-def _says_more(word: str) -> bool:
-    """Whether what stands before the name is of another kind than what the shares add: "of different colours"."""
-    return word in ("different", "various", "identical")
 
 
 def _shares(tokens: Sequence[Token], total: int) -> list[Share]:

@@ -36,17 +36,6 @@ _LONGEST = 30
 """Tokens of a list in brackets."""
 
 
-def the_ones(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "four mugs, third one broken" as "four mugs, the third one broken"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        member = token.text in lexicon.TELLING and at and tokens[at + 1].text == "one"
-        if member and (tokens[at - 1].mark or tokens[at - 1].text in ("and", "with", "while", "but")):
-            made.append(replace(token, text="the"))
-        made.append(token)
-    return made
-
-
 def sides(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "desk, lamp left" as "desk, lamp on the left side of the desk", "plate, fork left" beside it.
 

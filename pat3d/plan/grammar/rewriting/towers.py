@@ -70,7 +70,7 @@ def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if count and count < len(parts) + (len(parts) == 1):
         return list(tokens)
     lowest = [part for part in named if part is not None]
-    if noun is not None and (count > len(parts) or (not count and all(map(_is_sized, parts)))):
+    if noun is not None and count > len(parts):
         *number, others = _others(noun, count - len(parts))
         lowest.insert(len(parts) > 1, [*number, *look, others])
     like = tokens[0]
@@ -106,12 +106,6 @@ def _others(noun: Token, more: int) -> list[Token]:
     return [replace(noun, text=number if more > 1 else "a"), replace(noun, text=_plural(noun, more))]
 
 
-def _is_sized(part: Sequence[Token]) -> bool:
-    """Whether `part` is told by its size alone: "the smallest one"."""
-    bare = [token.text for token in part if token.text not in _ARTICLES]
-    return len(bare) == 1 and bare[0] in _PLAIN
-
-
 def _asked_for(words: list[str]) -> bool:
     """Whether `words` are "build a tower", and a sentence that goes on with what is there is a task."""
     asked = words[1:] if words[:1] == ["please"] else words
@@ -126,30 +120,6 @@ def _one_on_another(tokens: Sequence[Token], parts: Sequence[Sequence[Token]]) -
         stack, on, joint = (replace(part[0], text=word) for word in ("stack", "on", "and"))
         made += [*([joint] if made else []), replace(stack, start=tokens[0].start), *part, on, *below]
     return [*made, tokens[-1]]
-
-
-def so_that(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` of a prompt with "stack three cubes so that the red one is on top" as "..., the red one on top"."""
-    made: list[Token] = []
-    start = 0
-    for end, token in enumerate(tokens):
-        if token.text == ".":
-            made += _in_levels(tokens[start : end + 1])
-            start = end + 1
-    return [*made, *tokens[start:]]
-
-
-def _in_levels(tokens: Sequence[Token]) -> Sequence[Token]:
-    words = [token.text for token in tokens]
-    at = next((n for n in range(2, len(words) - 4) if words[n : n + 2] in (["so", "that"], ["such", "that"])), 0)
-    counted = at and (words[0] in lexicon.NUMBERS or (words[0] in _STACKS and words[1] in lexicon.NUMBERS))
-    levels = {n for n in range(at, len(words)) for key in _LEVELS if tuple(words[n : n + len(key)]) == key}
-    said = {n - 1 for n in levels if words[n - 1] in lexicon.COPULAS}
-    if not counted or not said or len(levels) < 2 or not _STACKS & set(words[:at]):
-        return tokens
-    before = [token for token in tokens[:at] if token.text not in (*lexicon.COPULAS, ",")]
-    after = [token for n, token in enumerate(tokens) if n > at + 1 and n not in said]
-    return [*before, replace(tokens[at], text=",", mark=True), *after]
 
 
 def of_things(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
