@@ -144,8 +144,7 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
             continue
         ended = behind[:1] in (["and"], ["but"], ["while"]) or tokens[min(end, len(tokens) - 1)].mark
         if coloured and at < led < end - 1 and {*before[-1:]} & lexicon.COPULAS and ended:
-            # "It is a bright yellow."
-            at = led
+            at = led  # "It is a bright yellow."
             continue
         whole = len(words) == 4 and words[1] == "a" and is_colour_word(words[2]) and words[3] in _COLOUR
         if whole and words[0] in ("has", "have", "of", "with"):
