@@ -33,7 +33,7 @@ UNSURE = frozenset({
 """Names that are other words as often, or parts of a thing."""
 NAMES_BEHIND_ARTICLES = frozenset({"can", "scale", "bolt", "folder", "plane"})
 """Those of them that name a thing where "a" or "the" stands before them."""
-GATHERINGS = frozenset({"bunch", "pair", "set", "row", "line", "level", "heap"})
+GATHERINGS = frozenset({"bunch", "bouquet", "pair", "set", "row", "line", "level", "heap"})
 """Words of which the plural too counts what stands behind it."""
 SHADES = frozenset({"dark", "light", "pale", "bright", "deep", "soft", "warm", "cool", "rich", "muted"})
 ADJECTIVES = frozenset({

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
 from pat3d.plan.grammar.chunking.chunks import trimmed
@@ -48,6 +49,7 @@ from pat3d.plan.grammar.sparing import Sparing, copied
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.left_out import doing_nothing, quoted, without
 from pat3d.plan.grammar.words.lexing import Span, Token, normalise, singulars, tokenise
+from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.names import catalogue_names
 from pat3d.plan.grammar.words.vocabulary import Nouns, Vocabulary
 from pat3d.plan.scene_plan import ScenePlan
@@ -67,6 +69,7 @@ TAILS = 3
 """Readings without a tail of which another tail is left out."""
 CLOSE = 0.3
 """Readings that differ by less in cost are both told, which one sentence in thirty has."""
+_COLOURS_ARE = (["the", "colors", "are"], ["the", "colours", "are"])
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
@@ -185,6 +188,11 @@ class GrammarPlanner(Sparing):
             # "Sort the toys: put the cars in the box": the cars are the toys.
             world.note(f'not modelled: "{clause.said}"')
             return world, None
+        several = len(world.groups) > 1 and [token.text for token in clause.tokens[:3]] in _COLOURS_ARE
+        if several:
+            # "An orange and a melon. The colors are bright, orange and green": which has which is not said.
+            world.note(f'not modelled: "{quoted(text, clause.tokens[:-1])}"')
+            return world, None
         if clause.verb in ("ensure", "ensuring") and self._adds_nothing(clause, world, None):
             world.note(f'not modelled: "{clause.said}": no task does that.')
             return world, None
@@ -274,6 +282,10 @@ class GrammarPlanner(Sparing):
         """
         further: list[tuple[Clause, World, int]] = []
         for start, end in spans:
+            look = clause.tokens[start - 1].text if start else ""
+            if is_colour_word(look) and not find_material(look) and self._nouns.match([look]):
+                # Without its "cover" an orange cover would be an orange.
+                start -= 1
             lighter = copied(world)
             lighter.note(f'not modelled: "{quoted(text, clause.tokens[start:end])}"')
             kept = replace(clause, tokens=without(clause.tokens, [(start, end)]))

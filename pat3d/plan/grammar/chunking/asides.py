@@ -184,6 +184,13 @@ class Asides(RelationWords):
                 # "A mug without a handle on a plate": the mug is on the plate.
                 break
             end = more[1] if more is not None else end + size + 1
+        denying = (self._nouns.match([token.text]) for token in self._tokens[self._at + 1 : end])
+        none = {one.noun for one in denying if one is not None}
+        for n, chunk in enumerate(self._made.chunks if none else ()):
+            # "A bowl of fruit without bananas": of what stands for fruit no banana does.
+            kinds = chunk.phrase.cycle if chunk.phrase is not None else ()
+            if left := tuple(kind for kind in kinds if self._nouns.resolve(kind) not in none):
+                self._made.chunks[n] = replace(chunk, phrase=replace(chunk.named, cycle=left))
         if self._last is not None and self._last.kind in ("have", "there"):
             self._made.chunks.pop()
         elif self._last is not None and self._word(0) == "without":

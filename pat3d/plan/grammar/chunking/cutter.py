@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
+from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.asides import ABOUT
 from pat3d.plan.grammar.chunking.chunks import MAX_CHUNKS, Chunk, Sentence
@@ -188,6 +189,10 @@ class Cutter(Qualities):
         if phrase.possessive and word in ("its", "their") and wide and phrase.head not in ("lid", "lids"):
             # "a truck with a block in its bed", "a bottle with its cap"
             phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
+        last, cloth = self._last, find_material(phrase.head) is not None
+        if phrase.kind == "pieces" and cloth and not phrase.determined and last is not None and last.text == "on":
+            # "A cup on white linen": what it lies on is no thing of its own.
+            phrase = replace(phrase, kind="background")
         if phrase.kind == "unknown" and self._is_had(phrase):
             phrase = replace(phrase, kind="part", said=phrase.head)
         if phrase.kind in ("object", "unknown"):

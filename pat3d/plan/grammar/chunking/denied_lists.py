@@ -33,6 +33,7 @@ class _Item:
     bare: bool
     plural: bool
     part: bool
+    stuff: bool
 
 
 def denied(tokens: Sequence[Token], at: int, read: Read) -> Denied:
@@ -79,9 +80,10 @@ def _item(tokens: Sequence[Token], at: int, read: Read) -> _Item | None:
     head = tokens[end - 1].text
     heads = {head, *singulars(head)}
     own = bool(heads & (lexicon.PARTS | lexicon.DETACHED)) or phrase.possessive
-    part = own or phrase.kind == "part" or (not phrase.determined and bool(heads & lexicon.SUBSTANCES))
+    stuff = not own and not phrase.determined and bool(heads & lexicon.SUBSTANCES)
+    part = own or phrase.kind == "part" or stuff
     bare = not phrase.determined and not phrase.possessive
-    return _Item(start=at, end=end, bare=bare, plural=phrase.plural, part=part)
+    return _Item(start=at, end=end, bare=bare, plural=phrase.plural, part=part, stuff=stuff)
 
 
 def _together(tokens: Sequence[Token], at: int, items: Sequence[_Item]) -> tuple[bool, bool]:
@@ -91,9 +93,11 @@ def _together(tokens: Sequence[Token], at: int, items: Sequence[_Item]) -> tuple
     if shared or all(item.part for item in items):
         # "Without its saucer and spoon"
         return True, True
-    if first.part or (first.bare and not any(item.bare for item in others)):
-        # "A mug without a handle, a fork and a knife"
-        return False, True
+    # "A hall without a door, a bench and a plant": no bench is told of beside a hall.
+    room = at > 0 and tokens[at - 1].text in lexicon.BACKGROUND
+    if not room and (first.part or (first.bare and not any(item.bare for item in others))):
+        # "A mug without a handle, a fork and a knife"; "a sink without soap and a cup" is not plain.
+        return False, len(items) > 2 or (first.part and not first.stuff)
     if len(items) == 2 and tokens[first.end].text == ",":
         # "A mug, without a spoon, and a plate are on a tray."
         return False, True

@@ -337,7 +337,7 @@ class PhraseReader:
             amount = inner.count if taken is None else taken
             if amount is None and inner.head in lexicon.ALIKE_IN_PLURAL:
                 inner, amount = replace(inner, vague=True), lexicon.BARE_PLURAL
-            if head in ("sets", "groups", "bunches", "collections", "clusters"):
+            if head in ("sets", "groups", "bunches", "bouquets", "collections", "clusters"):
                 # "two sets of keys": how many are in each is not said.
                 amount = (count or 2) * (inner.count or lexicon.BARE_PLURAL)
                 inner = replace(inner, vague=inner.vague or inner.count is None)

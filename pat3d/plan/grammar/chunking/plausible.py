@@ -28,8 +28,15 @@ _CLOSED_BY_LIDS = ("bottle", "teapot", "kettle", "thermos", "canister", "cookie 
                    "rice cooker", "pressure cooker", "flask", "box", "toolbox", "tube")  # fmt: skip
 """What a lid or a cap is on, besides what is hollow."""
 _POTTED, _POTS = ("plant", "potted plant", "cactus"), ("flower pot", "planter", "vase", "pot")
-_GROWING = (*_POTTED, "tree", "flower", "rose", "tulip", "succulent", "bouquet", "bush", "seed", "trowel")
+LEAFY = (*_POTTED, "tree", "succulent", "bush")
+"""What its leaves give its colour."""
+_GROWING = (*LEAFY, "flower", "rose", "tulip", "bouquet", "seed", "trowel")
 """What one thinks of in a flower pot, the first of it planted."""
+TOPPED = ("cake", "pie", "pizza", "cupcake", "muffin", "pancake", "waffle", "ice cream", "bread", "donut", "lettuce")
+_TOPPINGS = (*lexicon.FRUIT, "strawberry", "blueberry", "raspberry", "blackberry", "tomato", "mushroom", "cheese",
+             "egg", "olive", "bell pepper", "onion", "candle", "sausage", "walnut", "almond", "cookie", "cabbage",
+             "bacon", "steak", "carrot", "broccoli", "garlic")  # fmt: skip
+"""What is on a cake, a pizza, a salad, that is topped with it."""
 _SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
 """Seats on which nobody leaves a cup."""
 LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
@@ -97,9 +104,11 @@ class Plausible:
             return 0.0
         if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
             return 1.5
+        if self.is_a(child, lexicon.WORN) and self.is_a(parent, lexicon.FIGURES):
+            return 0.2
         if self.is_a(child, lexicon.ON_HEAD):
             return 0.5
-        if self.is_a(parent, _SUPPORTING):
+        if self.is_a(parent, _SUPPORTING) or self.tops(child, parent):
             return 0.3
         if self.is_a(parent, lexicon.ROUND, lexicon.SLENDER) and child != parent:
             return 2.2
@@ -111,6 +120,10 @@ class Plausible:
         """Whether `child` is beside `parent` where it is "on the left side of" it: furniture, a lamp by a bed."""
         by_seat = self.is_a(child, lexicon.BY_A_SEAT) or self.hollow(child)
         return self.floor(child) or (by_seat and self.is_a(parent, _SOFT[:3]))
+
+    def tops(self, child: str, parent: str) -> bool:
+        """Whether `child` is what food such as `parent` is topped with or covered in."""
+        return self.is_a(parent, TOPPED) and self.is_a(child, _TOPPINGS)
 
     def _closes(self, child: str, parent: str) -> bool:
         """Whether `child` is what closes `parent`: the lid of a jar, the cap of a bottle."""
@@ -147,7 +160,8 @@ class Plausible:
         if self.floor(child) == self.floor(parent):
             return 0.1
         lone = child if self.floor(parent) else parent
-        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE) else 1.4
+        # "A sink and a toilet in front of a mirror", which hangs or stands there
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE, ("mirror",)) else 1.4
 
     def held(self, child: str, kind: str, parent: str) -> float:
         """Of `child` being carried by `parent` in the manner `kind`."""

@@ -11,6 +11,8 @@ from pat3d.plan.grammar.words.modifiers import COLOURED, Modifiers
 
 _PUT_ON = frozenset({"bow", "ribbon", "scarf", "sticker", "label", "strap", "lace"})
 """Parts that are things of their own."""
+LEAVES = frozenset({"leaf", "stem", "stalk"})
+"""Parts that give no colour but to a plant or a tree: a vase with green leaves is none, nor is a rose."""
 
 
 def share_colours(group: Group) -> None:

@@ -15,6 +15,10 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import INSIDE, Link
 
 _WALLS = frozenset({"wall", "walls", "ceiling"})
+_BASINS = ("sink", "bathtub", "toilet")
+_ABOUT_BASINS = ("mirror", "hair dryer", "towel rack", "tile", "picture frame", "clock", "lamp", "plant",
+                 "potted plant", "cabinet", "shelf", "scale", "light bulb", "painting")  # fmt: skip
+"""What stands or hangs near a basin, and is never in it unless that is said."""
 
 
 class Holding(Doing):
@@ -96,8 +100,11 @@ class Holding(Doing):
     def _by_the_wall(self, head: int, owner: Item) -> bool:
         """Whether chunk `head`, and not `owner`, is on the wall or the floor: "a sink with a mirror on the wall".
 
-        "A bowl with plums on the floor", "a shelf with books on the wall": the bowl is, and the shelf.
+        "A bowl with plums on the floor", "a shelf with books on the wall": the bowl is, and the shelf. "A sink with a
+        mirror" has it on the wall as well.
         """
+        if self._world.is_a(owner, _BASINS) and self._world.is_a(self._said.ref(head)[0], _ABOUT_BASINS):
+            return True
         told = [other for one, other in self._said.related if head in one]
         places = {self._chunks[each].named.head for other in told for each in other}
         if self._world.is_a(owner, lexicon.SHELVES, lexicon.SHUT):

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
-from pat3d.plan.grammar.chunking.plausible import LARGE
+from pat3d.plan.grammar.chunking.plausible import LARGE, LEAFY
 from pat3d.plan.grammar.meaning.attached import put_carriers
-from pat3d.plan.grammar.meaning.described import describe
+from pat3d.plan.grammar.meaning.described import LEAVES, describe
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.forming import Forming
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES
@@ -327,13 +327,14 @@ class Placing(Forming):
     def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
         for group in dict.fromkeys(item.group for item in owners):
             words = phrase.modifiers
-            if words.colours or words.palette or words.material:
+            own = phrase.said not in LEAVES or self._world.is_a(owners[0], LEAFY)
+            if own and (words.colours or words.palette or words.material):
                 describe(group, words, part=phrase.said)
                 idle = [word for word in words.adjectives if word not in lexicon.HONOURED | lexicon.SAID_OTHERWISE]
                 if idle := [word for word in idle if word not in lexicon.SHADE_WORDS]:
                     said = ", ".join(f'"{word}"' for word in idle)
                     self._world.note(f'not modelled: {said} of "{phrase.words}"')
-            elif phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
+            elif not own or phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
                 self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)

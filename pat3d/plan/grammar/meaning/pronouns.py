@@ -13,6 +13,7 @@ from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES
 from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World
+from pat3d.plan.grammar.rewriting.rooms import ROOMS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import INSIDE, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
@@ -277,6 +278,10 @@ class Pronouns:
             # "A dog lies in front of a sofa, and a ball is on it": few things lie on a dog, but one may.
             read, other_words = (each[0].group.words for each in (best[1], about))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
+        room = next((each for each in self._world.aside if ROOMS & {*each.lower().split()[-1:]}), "")
+        if room and link is not None and link.kind == "in" and not child and self._world.on_floor(best[1][0]):
+            # "A bathroom with a sink and a toilet. A cup is in it."
+            self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}"; it may be "{room}".')
         if self.asked and not plural and not steps and (upon := self._carried(best[1])) is not None:
             # "The tray has a fork on it. Put it on the shelf."
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}"; it may be "{upon}".')

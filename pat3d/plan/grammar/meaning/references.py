@@ -244,7 +244,8 @@ class References(Members):
 
     def _part_of(self, phrase: Phrase, owners: Sequence[str]) -> bool:
         """Whether what has one of the nouns `owners` has a part that `phrase` names."""
-        whole = [lexicon.PARTS_OF[word] for word in (phrase.head, *singulars(phrase.head)) if word in lexicon.PARTS_OF]
+        names = (phrase.said, phrase.head, *singulars(phrase.head))
+        whole = [lexicon.PARTS_OF[word] for word in names if word in lexicon.PARTS_OF]
         return any(self._world.likely.is_a(owner, *whole) for owner in owners if owner and whole)
 
     def refs_of(

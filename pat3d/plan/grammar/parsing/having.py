@@ -5,7 +5,7 @@ from __future__ import annotations
 from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.parsing.judging import HEADLESS, Judging
-from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, ON_RIMS, SLENDER
+from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, ON_RIMS, SLENDER, WORN
 from pat3d.plan.grammar.words.links import Link
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
@@ -106,6 +106,14 @@ class Having(Judging):
             cost += _LANDMARKS
         # "each with a fork to its left and a knife to its right": of the same plate.
         cost -= _SAME_OWNER * ({"left", "right"} <= sides.keys() and link.manner != "of")
+        nearer = self._noun(at - 1) if at - 1 not in owners and self._chunks[at - 1].phrase is not None else ""
+        dressed = self._likely.is_a(nearer, FIGURES) and self._likely.is_a(self._noun(modifier.heads[0]), WORN)
+        topping = link.kind == "on" and not link.finite
+        tops = [self._likely.tops(self._noun(head), nearer or self._noun(owners[0])) for head in modifier.heads]
+        # "A shelf has a doll with a hat on top": on the doll. "A table with a pie topped with cherries": on the pie.
+        cost += 0.8 * (dressed or (topping and bool(nearer) and tops[0]))
+        # "A plate with a pie topped with cherries and a fork": no fork is on the pie.
+        cost += 0.6 * (topping and not nearer and any(tops) and not all(tops))
         wears = self._chunks[at].words[0] == "wearing"
         # "A bear sits between two pillows, wearing a hat": the bear does.
         cost += 0.8 * (wears and not self._likely.is_a(self._noun(owners[0]), FIGURES))
@@ -129,7 +137,9 @@ class Having(Judging):
             # "A jar that holds a nut and a clip on the desk": what it holds is in the jar.
             cost += 0.8 * any(carriers[head] != head for head in modifier.heads)
         left = tuple(dict.fromkeys(carriers[head] for head in modifier.heads if head not in placed))
-        cost += 0.15 * any(carriers[head] != head for head in modifier.heads)
+        # "A bowl of nuts on a plate": the plate is none of what the bowl is full of.
+        filled = link.manner == "of" and self._phrase(owners[0]).kind == "object"
+        cost += (2.0 if filled else 0.15) * any(carriers[head] != head for head in modifier.heads)
         if inside and any(head > min(inside) for head in left):
             # "A crate with a nut in it and a jar": what is "in it" ends what the crate has.
             cost += _ENDED

@@ -44,6 +44,14 @@ def of_the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         name = made[end - 1]
         several = plural(name.text)
+        behind = words[end : end + _LONGEST + 3]
+        if words[at - 1] == "with" and "other" in behind and "." not in behind[: behind.index("other")]:
+            # "Two jars, with one jar behind the other"
+            comma = [] if words[at - 2] == "," else [replace(made[at - 1], text=",", mark=True)]
+            bare = end == at + 2 and made[end + behind.index("other") + 1].mark
+            made[at - 1 : end] = [*comma, made[at], *([] if bare else made[at + 1 : end])]
+            at -= 2 - len(comma)
+            continue
         if (_led(words, at) and _counts(words[:at], words[at + 1 : end - 1], several)) or _told_of(words, at, end):
             of_those = [replace(made[at], text=text) for text in ("of", "the")]
             made[at + 1 : end] = [*of_those, *made[at + 1 : end - 1], replace(name, text=several)]

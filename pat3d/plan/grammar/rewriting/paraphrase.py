@@ -295,6 +295,21 @@ def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return list(tokens)
 
 
+def _named_alone(before: Sequence[Token], behind: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `before`, which no verb opens, ends in one thing, and `behind` is a place: "two eggs out of a carton".
+
+    So are "two out of the five eggs" no place, nor "an egg out of twelve".
+    """
+    start = max((n + 1 for n, each in enumerate(before) if each.mark or each.text in ("and", "with")), default=0)
+    words = [token.text for token in before[start:]]
+    words = words[words[:1] != [] and words[0] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() :]
+    found = nouns.longest(words) if words else None
+    if found is None or any(n not in found[1] and not is_modifier(word) for n, word in enumerate(words)):
+        return False
+    led = behind[0].text in lexicon.DETERMINERS if behind else False
+    return led and behind[1].text not in (*lexicon.NUMBERS, words[-1]) and not behind[1].text.isdecimal()
+
+
 def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "should be on" as "is on" and a bare "beside table" as a bedside table.
 
@@ -305,10 +320,16 @@ def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         follower = tokens[min(at + 1, len(tokens) - 1)].text
         before = kept[-1].text if kept else "."
-        if token.text == "out" and follower == "of" and before in ("is", "are", "was", "were"):
-            # "The dog is out of the box": not in it.
+        verb = before in ("is", "are", "was", "were")
+        if token.text == "out" and follower == "of" and (verb or _named_alone(kept, tokens[at + 2 :], nouns)):
+            # "The dog is out of the box", "an apple out of a bowl": not in it.
             kept.append(replace(token, text="outside"))
             continue
+        if token.text == "present" and (verb or (nouns.match([before]) and not is_modifier(before))):
+            behind = tokens[at + 1]
+            if behind.mark or behind.text == "and" or link_at(tokens, at + 1):
+                # "A cup is present on the table": no gift is there.
+                token = replace(token, text="visible")
         found = nouns.match([before]) if token.text in ("fruit", "fruits") and not is_colour_word(before) else None
         if found is not None and found.noun in lexicon.GENERICS["fruit"]:
             # "A green apple fruit" is an apple.

@@ -13,10 +13,12 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 _HAVING = lexicon.HAVING | {"featuring", "features", "having"}
 _INNER = (("in", "it"), ("inside", "it"), ("inside", "of", "it"))
 _WHERE = (("where",), ("in", "which"), ("wherein",))
-_ROOMS = frozenset({"room", "kitchen", "bathroom", "bedroom", "office", "workshop", "garage", "garden", "studio",
+ROOMS = frozenset({"room", "kitchen", "bathroom", "bedroom", "office", "workshop", "garage", "garden", "studio",
     "classroom", "library", "cafe", "restaurant", "nursery", "playroom", "laboratory", "lab", "workspace", "lounge",
     "study", "den", "pantry", "attic", "basement", "hallway", "lobby", "warehouse", "factory", "store", "supermarket",
     "shop", "bakery", "cafeteria", "gym", "shed", "cellar", "workcell", "apartment", "house", "home"})  # fmt: skip
+_HARDLY = 1.0
+"""Cost of being inside from which on nobody thinks of it: a plant in a trash can."""
 _SHORTEST = 3
 """Words of the shortest sentence that begins with "a room has"."""
 
@@ -24,7 +26,7 @@ _SHORTEST = 3
 def where_it_is(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with "a kitchen where a pot is on a stove" as "in a kitchen, a pot is on a stove"."""
     words = [token.text for token in tokens]
-    at = next((n for n in range(1, min(len(words) - 3, 9)) if words[n] in _ROOMS and _where(words, n + 1)), 0)
+    at = next((n for n in range(1, min(len(words) - 3, 9)) if words[n] in ROOMS and _where(words, n + 1)), 0)
     article = next((n for n in range(at - 1, max(at - 4, -1), -1) if words[n] in ("a", "an", "the", "this")), -1)
     opening = all(word in lexicon.COMMANDS or word in ("there", "is") for word in words[: max(article, 0)])
     if not at or article < 0 or not opening:
@@ -51,7 +53,10 @@ def in_rooms(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     room = words[first - 1 - (words[first - 1] in lexicon.RELATIVES)] if first else ""
     likely = Plausible(nouns)
     last = max((at for at in range(first, start) if words[at] == "and"), default=start)
-    found = (nouns.match(words[at : at + size]) for at in range(first, last) for size in (1, 2, 3) if at + size <= last)
-    hollow = any(likely.hollow(one.noun) for one in found if one is not None)
+    # "A sink, a toilet and a mug in it": of two that are named before, no mug is in the farther one.
+    before = max((at for at in range(first, last - 1) if words[at] == ","), default=first)
+    inside, near = nouns.longest(words[last:start]), nouns.longest(words[before:last])
+    child = inside[0].noun if inside is not None else ""
+    hollow = near is not None and likely.hollow(near[0].noun) and likely.within(child, near[0].noun) < _HARDLY
     said_of_room = room in lexicon.BACKGROUND and not hollow and tokens[end].mark
     return [*tokens[:start], *tokens[end:]] if said_of_room else list(tokens)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import LINKS
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
@@ -188,13 +188,17 @@ def known_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         end = at + size + led + noun
         same = [(last, how) for last, other, how in named if other.noun == match.noun and other.said == match.said]
         again = size and len(same) == 1 and not match.plural and same[0][0] != at and {*words[:led]} <= {*same[0][1]}
-        again = again and "several" not in same[0][1]
+        # "A large pizza and two plates of pizza": what a plate is full of is no pizza named before.
+        before = tokens[max(at - 1, 0)].text
+        portion = nouns.match([before]) is not None or {before, *singulars(before)} & lexicon.PORTIONS
+        full = tokens[at].text == "of" and portion
+        again = again and "several" not in same[0][1] and not full
         made += tokens[at : at + size]
         if again:
             made.append(replace(tokens[at + size], text="the"))
         else:
-            before = tokens[at + size - 1].text if at + size else "."
-            several = match.plural or numeral(before) > 1 or before in ("each", "every")
+            number = tokens[at + size - 1].text if at + size else "."
+            several = match.plural or numeral(number) > 1 or number in ("each", "every")
             named.append((end, match, [*words[:led], *(["several"] if several else [])]))
         made += tokens[at + size : end]
         at = end

@@ -7,11 +7,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 
+from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.rewriting.of_material import made_of
 from pat3d.plan.grammar.rewriting.respectively import respectively
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_marked, is_modifier
 from pat3d.plan.grammar.words.number_words import is_number
 from pat3d.plan.grammar.words.unmade import base_verb, is_no_noun
@@ -65,6 +67,7 @@ atleast = at least
 atmost = at most
 with no = without
 with not a single = without a
+pan/panning shot = shot
 the one below holds/contains/has/is = the lower one 1
 at/on its left/right end/half = on the 2 side of it
 alone on/in/at = 1
@@ -176,6 +179,23 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         words = [token.text for token in tokens[at : at + 4]]
         if words[:1] == ["in"] and words[1:2] and words[1] in _COLOUR and made and is_colour_word(made[-1].text):
             at += 2
+            continue
+        led = at + (words[0] in ("a", "an"))
+        stops = (n for n in range(led, len(tokens)) if not (is_modifier(tokens[n].text) or tokens[n].text == "and"))
+        end = next(stops, led)
+        end -= led < end and tokens[end - 1].text == "and"
+        before, behind = [token.text for token in made[-2:]], [token.text for token in tokens[end : end + 2]]
+        coloured = led < end and is_colour_word(tokens[end - 1].text) and not find_material(tokens[end - 1].text)
+        if coloured and before[1:] == [","] and singulars(before[0]) and behind[:1] == [","] and {*behind} & FINITE:
+            # "The pears, a deep green, are ripe": no pear is one of them.
+            name = made[-2]
+            look = (each for each in tokens[led:end] if each.text != "and")
+            made[-2:] = [*(replace(each, start=name.start, end=name.start) for each in look), name]
+            at = end + 1
+            continue
+        ended = behind[:1] in (["and"], ["but"], ["while"]) or tokens[min(end, len(tokens) - 1)].mark
+        if coloured and at < led < end - 1 and {*before[-1:]} & lexicon.COPULAS and ended:
+            at = led  # "It is a bright yellow."
             continue
         whole = len(words) == 4 and words[1] == "a" and is_colour_word(words[2]) and words[3] in _COLOUR
         if whole and words[0] in ("has", "have", "of", "with"):

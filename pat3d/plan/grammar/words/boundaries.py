@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, LONGEST_LINK, SIDES
@@ -196,7 +197,10 @@ class Boundaries:
             return None
         if not is_modifier(run[-1].text) and not looks_like_adjective(run[-1].text):
             # "a hefty, red-painted box": what is no noun and stands before a comma and a modifier describes.
-            known = self._nouns.longest([token.text for token in run]) or self._nouns.resembles_noun(run[-1].text)
+            # "Red walls, white chairs": no walls are chairs, whether they are made or not.
+            several = len(run) > 1 and bool(singulars(run[-1].text))
+            known = several or self._ends_in_noun([each.text for each in run])
+            known = known or self._nouns.resembles_noun(run[-1].text)
             after = self._tokens[at + 1].text
             if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
                 return None
@@ -206,8 +210,12 @@ class Boundaries:
         first = self._skip_joint(at)
         look = first
         if colours:
-            # Every member of the list is a colour, and the last stands directly before more of the phrase.
-            while is_colour_word(self._tokens[look].text):
+            # Every member of the list is a colour (or a material, of one thing: "a red and wooden stool"), and the
+            # last stands directly before more of the phrase.
+            one = self._tokens[at - len(run) - 1].text in ("a", "an") and not self._nouns.match([run[-1].text])
+            while is_colour_word(word := self._tokens[look].text) or (
+                one and find_material(word) and is_modifier(word)
+            ):
                 look += 1
                 if (onward := self._skip_joint(look)) > look:
                     if not is_colour_word(self._tokens[onward].text):

@@ -141,14 +141,14 @@ COLLECTIVES = frozenset({"set", "collection", "group", "bunch", "assortment", "v
     "lot", "lots", "selection", "mix", "mixture", "cluster", "arrangement", "range", "plenty", "couple", "few", "trio",
     "dozen", "dozens", "pair", "pairs", "sets", "groups", "bunches", "collections", "clusters", "kind", "type",
     "kinds", "types", "bit", "series", "bundle", "bundles", "batch", "spectrum", "bushel", "crowd", "host",
-    "smattering", "scattering", "flock", "herd", "swarm"})  # fmt: skip
+    "smattering", "scattering", "flock", "herd", "swarm", "bouquet", "bouquets", "posy"})  # fmt: skip
 ALIKE_IN_PLURAL = frozenset({"sheep", "fish", "deer"})
 """Nouns of which the plural is no other word: "a herd of sheep"."""
 ROWS = frozenset({"row", "line"})
 PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube", "stick", "roll", "pack", "packet",
     "wedge", "head", "scoop", "carton", "can", "tin", "bottle", "box"})  # fmt: skip
 """X in "X of Y" where X only portions Y."""
-SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "bouquet", "model", "block", "ball"})
+SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "model", "block", "ball"})
 """X in "X of Y" where X is the form that Y has."""
 PICTURES = frozenset({"photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration",
     "display", "scene", "arrangement", "painting", "drawing", "depiction"})  # fmt: skip
@@ -280,6 +280,8 @@ SIDE_DISHES = ("french fries", "potato", "corn", "broccoli", "carrot", "chip bag
 LONG = ("plank", "board", "wooden board", "ruler", "ladder", "stick", "rod", "beam", "log")
 """What is on two things by lying across them."""
 ON_HEAD = ("hat", "cap", "crown", "top hat", "party hat", "helmet", "bowler hat", "cowboy hat", "wizard hat", "beanie")
+WORN = (*ON_HEAD, "t-shirt", "coat", "scarf", "sunglasses", "mitten", "apron", "backpack")
+"""What a figure has on, though it may lie anywhere."""
 STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresser", "wardrobe", "cart", "desk",
     "birdcage", "dollhouse", "file sorter")  # fmt: skip
 TIERED = ("birdcage", "dollhouse", "file sorter")
@@ -368,6 +370,7 @@ PARTS_OF: dict[str, tuple[str, ...]] = {
     "basket": ("shopping cart", "bicycle"), "mirror": ("dresser", "vanity"), "cord": ("lamp", "kettle", "toaster"),
     "stand": ("globe", "monitor"), "flower": ("plant", "potted plant", "cactus", "tree", "bush"),
     **dict.fromkeys(("mantelpiece", "mantel", "mantle", "hearth"), ("fireplace",)),
+    "toilet seat": ("toilet",), "faucet": ("sink", "bathtub"),
 }  # fmt: skip
 """What the things after it have as a part, though there are things of that name too."""
 BUILT_IN = frozenset({"burner", "mantelpiece", "mantel", "mantle", "hearth"})
