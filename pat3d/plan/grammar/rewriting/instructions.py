@@ -199,8 +199,9 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
             # "Push the ball with the bat": the bat lies by itself.
             tool = Clause(tokens=(*body[with_it + 1 : after], stop), first=not made)
             # "Get it out with the stick and drop it in the box": what is dropped was named before.
-            bare = body[with_it + 1].text not in lexicon.DETERMINERS | lexicon.POSSESSIVES
-            (tools if bare or body[0].text in ("it", "them") else made).append(tool)
+            # "Slide tomato pieces into the pan using a knife": no pieces of the knife.
+            led = lexicon.DETERMINERS | lexicon.POSSESSIVES
+            (made if body[0].text in led and body[with_it + 1].text in led else tools).append(tool)
             aside = (*aside, text[body[with_it].start : body[after - 1].end])
             body = [*body[: with_it - (body[with_it - 1].text in _PARTICLES)], *body[after:]]
         later = next((at for begin, at in starts if begin == end), 0)

@@ -116,7 +116,7 @@ def _wants(tokens: list[Token], nouns: Nouns) -> bool:
     wished = _wished(tokens)
     verb = next((at for at, token in enumerate(wished) if at and token.text in _VERBS), 0)
     found = nouns.match([wished[verb - 1].text])
-    stands = wished[-2].text not in SWITCHED
+    stands = not any(token.text in SWITCHED for token in wished[-2:])
     furniture = stands and found is not None and nouns.of_class(found.noun, lexicon.FLOOR)
     return bool(verb) and not furniture and (wished != tokens or _ought(tokens))
 
