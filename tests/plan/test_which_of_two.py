@@ -208,7 +208,7 @@ def test_the_ones_told_by_looks_or_place_are_all_of_them(prompt, expected):
                 "coffee machine, bench, bag",
                 "coffee machine on bench, bag on coffee machine",
                 None,
-                ['assumed: "a bag" on "A coffee machine"; few things are there'],
+                ['"it" (word 13) is read as "A coffee machine"; it may be "the bench".'],
             ),
         ),
         (

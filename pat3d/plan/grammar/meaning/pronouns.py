@@ -230,6 +230,7 @@ class Pronouns:
         part = not plural and bool(other) and apart.are_some(other)
         best: tuple[float, list[Item]] | None = None
         rival: tuple[float, list[Item]] | None = None
+        doubted: list[Item] = []
         for cost, items in candidates:
             if not items or set(items) & set(other) or items[0].group.replaced:
                 continue
@@ -271,7 +272,7 @@ class Pronouns:
                 top = link.kind == "on" and not child and "top" in self._chunks[at - 1].words and items in before[:1]
                 if top and likely < _UPON and items[0].group.noun != other[0].group.noun:
                     # "A coffee machine on the counter, a bag on top of it": few say it of a counter, but one may.
-                    likely = min(likely, (_CARRIED + _CLOSE) / 2)
+                    doubted, likely = (items if likely > _CARRIED else doubted), min(likely, _CARRIED / 2)
                 # "A crate stands next to the bed, and a book lies on it": on what the clause before is about.
                 carries = (
                     not (child or near) and link.kind in SUPPORT_KINDS and items in before[:1] and likely < _CARRIED
@@ -309,6 +310,9 @@ class Pronouns:
         ):
             read, other_words = (each[1][0].group.words for each in (best, rival))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
+        if (under := self._world.support(best[1][0])) is not None and doubted == best[1]:
+            read = f'"{phrase.words}" (word {phrase.number}) is read as "{pair.words}"'
+            self._world.note(f'{read}; it may be "{under.group.words}".')
         about = next((each for each in before if each), best[1])
         aside = not child and link is not None and link.kind in SUPPORT_KINDS and not set(about) & set(best[1])
         if aside and not plural and self._world.is_a(about[0], _BROAD, lexicon.LARGE_VESSELS):
