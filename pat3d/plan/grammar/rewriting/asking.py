@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.own_colours import in_one_way
 from pat3d.plan.grammar.rewriting.taken_from import from_side, stack_of
-from pat3d.plan.grammar.rewriting.two_arms import by_the_robot, for_each_arm
+from pat3d.plan.grammar.rewriting.two_arms import by_the_robot
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -70,7 +70,7 @@ def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
 def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[list[Token]]:
     """What is asked with `whole`, behind sentences with the words `before`."""
     made: list[list[Token]] = []
-    for sentence in (each for one in for_each_arm(whole) for each in from_side(one, nouns)):
+    for sentence in from_side(whole, nouns):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
         plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_able(_politely(plain)))))))))
         piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})

@@ -17,11 +17,9 @@ from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
-_PUSHING = frozenset({"push", "slide", "move", "drag", "shift", "nudge", "pull", "shove", "sweep"})
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
 _FINDING = frozenset({"find", "locate", "choose", "select", "get", "retrieve", "identify", "collect"})
-_KEEPING = {"keeping": "keep", "leaving": "leave", "keep": "keep", "leave": "leave"}
 _DOING = frozenset({"put", "place", "stack", "move", "pick", "take", "set", "pour", "open", "close", "grasp", "push"})
 _IDIOMS = {("throw", "away"): "discard", ("throw", "out"): "discard", ("toss", "out"): "discard",
            ("toss", "away"): "discard", ("dispose", "of"): "discard", ("get", "rid", "of"): "discard",
@@ -36,9 +34,6 @@ _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", 
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
 _SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
 _HANDING = (["give"], ["hand"], ["pass"])
-_GIVEN = frozenset({"shake", "wipe", "stir", "spin", "rinse", "push", "pull", "turn", "twist", "wash", "squeeze",
-    "polish", "tap", "nudge", "kick", "scrub", "wiggle", "flip", "tilt", "brush"})  # fmt: skip
-"""What something is given that is done to it."""
 _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
 _BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect"})
@@ -52,8 +47,8 @@ _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "oper
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _parted(_given(_swapped(put_back(together(closed(_in_full(_kept(_idioms(tokens)))))))))
-    return _handed(_fronted(_place_first(_sideways(_ordered(_told_once(_lined_up(_built(told))))))))
+    told = _parted(_swapped(put_back(together(closed(_in_full(_idioms(tokens)))))))
+    return _handed(_fronted(_place_first(_ordered(_told_once(_lined_up(_built(told)))))))
 
 
 def allowed(tokens: Sequence[Token]) -> list[Token]:
@@ -159,42 +154,6 @@ def _parted(tokens: Sequence[Token]) -> Sequence[Token]:
     return [*tokens[:at], replace(tokens[at], text="and"), *tokens[at + 1 :]]
 
 
-def _kept(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "keeping the cup on the tray, stack the bowl on it" as "keep the cup ... on the cup"."""
-    words = [token.text for token in tokens]
-    comma = next((n for n in range(len(words)) if words[n] == "," or (n > 3 and words[n] == "and")), 0)
-    asked = 0 < comma < len(words) - 3 and base_verb(words[comma + 1]) == words[comma + 1]
-    start = int(words[0] == "while" and words[1] in _KEEPING)
-    keep = _KEEPING.get(words[start])
-    if not asked or keep is None or words[start + 1] not in lexicon.DEFINITE or {"other", "others"} & {*words}:
-        return tokens
-    link = next((n for n in range(start + 2, comma) if link_at(tokens, n)), comma)
-    joint = replace(tokens[comma], text="and", mark=False)
-    made = [replace(tokens[start], text=keep), *tokens[start + 1 : comma], joint]
-    for at in range(comma + 1, len(words)):
-        upon = words[at] == "it" and link_at(tokens, at - 1) and (tokens[at + 1].mark or words[at + 1] == "and")
-        made += [replace(tokens[at], text=each.text) for each in tokens[start + 1 : link]] if upon else [tokens[at]]
-    return made
-
-
-def _given(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "give the can a shake" as "shake the can"."""
-    words = [token.text for token in tokens]
-    if "give" not in words[:-3]:
-        return tokens
-    give = words.index("give")
-    a = next((n for n in range(give + 2, min(give + 8, len(words) - 2)) if words[n] in ("a", "another")), 0)
-    deed = a + 1 + (words[a + 1] in ("good", "quick", "gentle", "little", "light", "firm", "quarter", "half", "full"))
-    to = words[give + 1] in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it", "them"} if a else False
-    if not to or words[deed] not in _GIVEN or any(token.mark for token in tokens[give:deed]):
-        return tokens
-    if not (tokens[deed + 1].mark or words[deed + 1] in ("and", "then")):
-        return tokens
-    done = replace(tokens[deed], start=tokens[give].start, end=tokens[give].end)
-    last = replace(tokens[a - 1], end=tokens[deed].end)
-    return [*tokens[:give], done, *tokens[give + 1 : a - 1], last, *tokens[deed + 1 :]]
-
-
 def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf", "lay out" as "lay"."""
     words = [token.text for token in tokens]
@@ -279,17 +238,6 @@ def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
         if not asks or words[verb] != "go" or not link_at(tokens, verb + 1) or words[0] not in lexicon.DETERMINERS:
             continue
         return [replace(tokens[0], text="put"), *tokens[:at], *tokens[verb + 1 :]]
-    return tokens
-
-
-def _sideways(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "push left the red cup" as "push the red cup to the left"."""
-    for at in range(len(tokens) - 3):
-        verb, side, leads = (token.text for token in tokens[at : at + 3])
-        if verb in _PUSHING and side in ("left", "right") and leads in lexicon.DETERMINERS:
-            end = next(n for n in range(at + 2, len(tokens)) if tokens[n].mark or tokens[n].text == "and")
-            to = [replace(tokens[at + 1], text=word) for word in ("to", "the", side)]
-            return [*tokens[: at + 1], *tokens[at + 2 : end], *to, *tokens[end:]]
     return tokens
 
 

@@ -1,47 +1,15 @@
-"""What several have evenly between them, as how many each has: "six apples divided equally between two bowls"."""
+"""What several have in all and each of them has a share of: "six apples, two in each of three bowls"."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
-from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
+from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import counted_before, number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
-
-_DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
-_EVENLY = frozenset({"equally", "evenly"})
-_IN_ALL = (("in", "total"), ("in", "all"), ("altogether",), ("overall",), ("in", "each"))
-_GROUPS = frozenset({"groups", "clusters"})
-
-
-def shared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "six apples divided equally between two bowls" as "three apples in each of two bowls"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 3):
-        if words[at] not in _DIVIDED:
-            continue
-        first = at - (words[at - 1] in _EVENLY)
-        between = at + 1 + (words[at + 1] in _EVENLY)
-        evenly = between > at + 1 or first < at
-        among = words[between : between + 1] in (["between"], ["among"], ["over"], ["across"])
-        number = between + 1 + (words[between + 1] == "the")
-        holders = number_of(words[number]) if number < len(words) else 0
-        start = next((n for n in range(first - 1, -1, -1) if number_of(words[n])), None)
-        if not (evenly and among and holders and start is not None) or number_of(words[start]) % holders:
-            continue
-        name = next((n for n in (3, 2, 1) if nouns.match(words[start + 1 : start + 1 + n])), 0)
-        if not name:
-            continue
-        share = number_of(words[start]) // holders
-        told = [replace(tokens[between], text=text) for text in ("in", "each", "of")]
-        amount = replace(tokens[start], text="one" if share == 1 else str(share))
-        return [*tokens[:start], amount, *tokens[start + 1 : start + 1 + name], *told, *tokens[number:]]
-    return list(tokens)
 
 
 def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -49,7 +17,6 @@ def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     Where the shares do not make up the whole they are left as they are: the audit compares them with the plan.
     """
-    tokens = _counted_behind(tokens, nouns)
     words = [token.text for token in tokens]
     for each in range(4, len(words) - 2):
         share = each - next((n for n in (3, 2, 1) if link_at(tokens, each - n) == n), each) - 1
@@ -70,119 +37,6 @@ def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             return [*tokens[:start], replace(tokens[start], text=words[share]), *tokens[start + 1 : end],
                     *tokens[behind:]]  # fmt: skip
     return list(tokens)
-
-
-def _counted_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a row of jars, five in total" as "a row of five jars", where nothing else is uncounted.
-
-    So is "two groups of jars, three in each group" "two groups of three jars".
-    """
-    made = list(tokens)
-    for at in range(len(tokens) - 3, 1, -1):
-        words = [token.text for token in made]
-        said = at + 1 + (nouns.match([words[at + 1]]) is not None)
-        size = next((len(each) for each in _IN_ALL if tuple(words[said : said + len(each)]) == each), 0)
-        if words[at - 1] != "," or not number_of(words[at]) or not size:
-            continue
-        start = next((n + 1 for n in range(at - 1, -1, -1) if words[n] == "."), 0)
-        share = words[said + 1] == "each"
-        end = said + size + (share and words[said + 2] in ("group", "cluster"))
-        # "Two books on a shelf with vases, five in total" may be of either.
-        named = [n for n in range(start, at - 1) if (found := nouns.match([words[n]])) is not None and found.plural]
-        if len(named) != 1 or not made[end].mark or (share and not _GROUPS & {*words[start : named[0]]}):
-            continue
-        first = named[0]
-        while first > start and is_modifier(words[first - 1]):
-            first -= 1
-        if first > start and (number_of(words[first - 1]) or words[first - 1] in ("the", "and")):
-            continue
-        after = end + (words[end] == ",")
-        made = [*made[:first], made[at], *made[first : at - 1], *made[after:]]
-    return made
-
-
-def without_shares(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` without ", two in each" behind "six apples are in three bowls": they are shared out evenly anyway."""
-    words = [token.text for token in tokens]
-    for each in (at for at in range(6, len(words) - 1) if words[at] == "each"):
-        tail = next((n for n in range(each - 1, each - 6, -1) if tokens[n].mark), each)
-        start = max((n + 1 for n in range(tail) if words[n] == "."), default=0)
-        counted = [n for n in range(start, tail) if number_of(words[n])]
-        share = tail + 1 + (words[tail + 1] == "with")
-        if len(counted) != 2 or words[tail] != "," or "and" in words[slice(*counted)]:
-            continue
-        amount = 1 if words[share] == "one" else number_of(words[share])
-        few, many = sorted(number_of(words[n]) for n in counted)
-        end = each + 1
-        while (
-            end < each + 4
-            and not tokens[end].mark
-            and {words[end], f"{words[end]}s"} & {"of", "them", *words[start:tail]}
-        ):
-            end += 1
-        placed = share + 1 == each or link_at(tokens, share + 1) == each - share - 1
-        if amount * few == many and placed and tokens[end].mark:
-            return [*tokens[:tail], *tokens[end:]]
-    return list(tokens)
-
-
-def shared_by_colour(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "put six cups on the trays: the red ones on a red tray, the blue ones on a blue tray" in full.
-
-    That is "put the three red cups on a red tray and the three blue cups on a blue tray": where they go is said twice.
-    """
-    words = [token.text for token in tokens]
-    for at in range(4, len(words) - 6):
-        stop = words.index(".", at)
-        start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
-        first = start + bool(known_verb(words[start]))
-        link = next((n for n in range(first + 1, at) if link_at(tokens, n)), 0)
-        head = link - 1 - (words[link - 1] in FINITE)
-        name = words[head] if link else ""
-        parts = _by_colour(tokens, at, stop, name) if singulars(name) and nouns.match([name]) else []
-        where = {*singulars(words[at - 1])}
-        if len(parts) < 2 or not where or not all(where & {*words[n:end]} for _, n, end in parts):
-            continue
-        total = next((number_of(words[n]) for n in range(first, head) if number_of(words[n])), 0)
-        share, more = divmod(total, len(parts))
-        verb = [replace(tokens[start], text="put")] if first > start else []
-        said: list[Token] = []
-        single = next((word for word in singulars(name) if nouns.match([word])), name)
-        for n, (colour, behind, end) in enumerate(parts):
-            one = words[colour + 1] in ("one", single) or (total > 0 and share + (n < more) == 1)
-            noun = single if one else name
-            counted = [replace(tokens[colour], text=str(share + (n < more)))] if share and not one else []
-            lead = [replace(tokens[colour], text="the")] if verb or one else []
-            finite = [] if verb else [replace(tokens[link - 1], text="is" if one else "are")]
-            joint = [replace(tokens[at], text="and", mark=False)] if said else []
-            whole = [*lead, *counted, tokens[colour], replace(tokens[colour + 1], text=noun)]
-            said += [*joint, *whole, *finite, *tokens[behind:end]]
-        return [*tokens[:start], *verb, *said, *tokens[stop:]]
-    return list(tokens)
-
-
-def _by_colour(tokens: Sequence[Token], at: int, stop: int, name: str) -> list[tuple[int, int, int]]:
-    """The colour of each "the red ones on a tray" from the mark at token `at` on, the place behind it and its end."""
-    made: list[tuple[int, int, int]] = []
-    while at < stop and (tokens[at].text in (":", ",", ";") or (made and tokens[at].text == "and")):
-        colour = at + 1 + (tokens[at + 1].text == "and")
-        colour += tokens[colour].text == "the"
-        if colour + 2 > stop:
-            return []
-        behind = colour + 2
-        told = is_colour_word(tokens[colour].text) and tokens[colour + 1].text in (
-            "ones",
-            "one",
-            name,
-            *singulars(name),
-        )
-        behind += tokens[behind].text in ("go", "goes", "are", "is") if told else 0
-        if not told or not link_at(tokens, behind):
-            return []
-        end = next(n for n in range(behind, stop + 1) if tokens[n].mark or tokens[n].text == "and")
-        made.append((colour, behind, end))
-        at = end
-    return made if at == stop else []
 
 
 def _carriers(tokens: Sequence[Token], each: int) -> int:

@@ -10,7 +10,6 @@ from pat3d.plan.grammar.rewriting.rooms import in_rooms, where_it_is
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _PERSONS = frozenset({"she", "he", "we", "i", "they", "somebody", "someone", "you", "people"})
@@ -33,7 +32,7 @@ _FORMED = frozenset({"row", "line", "stack", "pile", "tower", "column", "circle"
 
 def opened(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` from where the scene begins: "she left her keys on the shelf" as "her keys on the shelf"."""
-    tokens = where_it_is(owned(without_duties(_without_aim(_without_viewer(_connected(tokens)), nouns))))
+    tokens = where_it_is(owned(without_duties(_connected(tokens))))
     tokens = in_rooms(on_its_lid(tokens), nouns)
     for at in (0, _after_purpose(tokens, nouns)):
         if (start := begun(tokens, at, nouns)) > at:
@@ -41,7 +40,7 @@ def opened(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         start = _put_there(tokens, at)
         if start and _begins(tokens, start):
             return list(tokens[start:])
-    return _fronted_participle(tokens, nouns)
+    return list(tokens)
 
 
 def _put_there(tokens: Sequence[Token], at: int) -> int:
@@ -99,26 +98,6 @@ def _begins(tokens: Sequence[Token], at: int) -> bool:
     return word in leads or word.isdecimal()
 
 
-def _without_viewer(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` without "if you look closely," and "when you enter,"."""
-    if tokens[0].text not in ("if", "when", "as", "once") or tokens[1].text not in ("you", "one", "we"):
-        return tokens
-    comma = next((at for at, token in enumerate(tokens) if token.text == ","), 0)
-    named = any(token.text in lexicon.DETERMINERS for token in tokens[:comma])
-    return tokens[comma + 1 :] if comma and not named else tokens
-
-
-def _without_aim(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
-    """`tokens` with "to prepare the test, put ten bolts into a box" as "put ten bolts into a box"."""
-    words = [token.text for token in tokens[:12]]
-    comma = words.index(",") if "," in words else 0
-    if words[0] != "to" or comma < 3 or base_verb(words[1]) != words[1] or link_at(tokens, 0) > 1:
-        return tokens
-    asked = comma + 1 < len(words) and base_verb(words[comma + 1]) == words[comma + 1]
-    named = any(nouns.match([word]) for word in words[1:comma])
-    return tokens[comma + 1 :] if asked and not named and _begins(tokens, comma + 2) else tokens
-
-
 def _after_purpose(tokens: Sequence[Token], nouns: Nouns) -> int:
     """The token after "for the experiment", which names nothing that could be made; 0 where nothing like it opens."""
     if tokens[0].text not in ("for", "in", "during", "after", "before"):
@@ -128,14 +107,3 @@ def _after_purpose(tokens: Sequence[Token], nouns: Nouns) -> int:
     if end > 7 or any(nouns.match([token.text]) for token in tokens[:end]):
         return 0
     return end if tokens[end].text in _PERSONS else 0
-
-
-def _fronted_participle(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "swimming in the pool are four ducks" as "in the pool are four ducks"."""
-    word = tokens[0].text
-    opens = word.endswith(("ing", "ed")) and word not in lexicon.PARTICIPLES | lexicon.NOT_VERBS
-    opens = opens and not word.endswith("thing") and not nouns.match([word])
-    verb = any(token.text in lexicon.COPULAS for token in tokens)
-    # "Hanging from" and "leaning against" are relations.
-    plain = link_at(tokens, 1) and not link_at(tokens, 0)
-    return list(tokens[1:]) if opens and verb and plain and _begins(tokens, 1 + link_at(tokens, 1)) else list(tokens)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from pat3d.plan.grammar.rewriting.numbers_compared import plainly_compared
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Span, Token, singulars
@@ -62,7 +61,7 @@ def outnumbering(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     How many of each is assumed so that the one kind outnumbers the other.
     """
-    made = plainly_compared(tokens)
+    made = list(tokens)
     for at in range(len(made) - 4, -1, -1):
         found = _comparison(made, at, nouns) if at < len(made) - 3 else None
         if found is not None:
@@ -104,9 +103,9 @@ def _names(tokens: Sequence[Token], nouns: Nouns) -> bool:
 def _rewritten(made: list[Token], it: _Comparison) -> list[Token]:
     """`made` with what `it` says counted."""
     if it.second == it.first:
-        return made if it.exact else _in_two_places(made, it)
-    if base := numeral(made[it.second[0]].text):
-        return _counted_by(made, it, base)
+        return made
+    if numeral(made[it.second[0]].text):
+        return made
     first, second = (_elsewhere(made, it, span) for span in (it.first, it.second))
     if first is not None and second is not None:
         return _restated(made, it, first, second)
@@ -128,29 +127,10 @@ def _rewritten(made: list[Token], it: _Comparison) -> list[Token]:
     return [*made[: it.at], *counted, *made[slice(*it.place)], *made[it.end :]]
 
 
-def _in_two_places(made: list[Token], it: _Comparison) -> list[Token]:
-    """Read "more apples in the bowl than on the table" as "several apples in the bowl and some apples on the table"."""
-    many, some = (replace(made[it.at], text=word) for word in _WORDS[it.more])
-    than = replace(made[it.place[1]], text="and")
-    again = replace(some, start=than.start, end=than.end)
-    name = [replace(token, start=than.start, end=than.end) for token in made[slice(*it.first)]]
-    return [*made[: it.at], many, *made[slice(*it.first)], *made[slice(*it.place)], than, again, *name, *made[it.end :]]
-
-
 def _several(made: list[Token], span: Span) -> list[Token]:
     """The name at `span`, of several: "one more fork" counts forks."""
     *looks, head = made[slice(*span)]
     return [*looks, head if singulars(head.text) else replace(head, text=f"{head.text}s")]
-
-
-def _counted_by(made: list[Token], it: _Comparison, base: int) -> list[Token]:
-    """Read "two fewer cups than the five plates" as "three cups and five plates"."""
-    number = base + it.more
-    if number < 1:
-        return made
-    counted = [replace(made[it.at], text=_word(number, it)), *_several(made, it.first)]
-    return [*made[: it.at], *counted, replace(made[it.place[1]], text="and"), *made[slice(*it.second)],
-            *made[slice(*it.place)], *made[it.end :]]  # fmt: skip
 
 
 def _one_counted(made: list[Token], it: _Comparison, span: Span, number: int) -> list[Token]:

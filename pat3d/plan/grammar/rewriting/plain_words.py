@@ -11,7 +11,6 @@ from pat3d.plan.grammar.rewriting.carried_clauses import of_the_carried
 from pat3d.plan.grammar.rewriting.compounds import compounds
 from pat3d.plan.grammar.rewriting.drinks import of_drinks
 from pat3d.plan.grammar.rewriting.meals import served
-from pat3d.plan.grammar.rewriting.neighbours import between_neighbours
 from pat3d.plan.grammar.rewriting.note_items import each_at_its_place
 from pat3d.plan.grammar.rewriting.numbered import ordinals
 from pat3d.plan.grammar.rewriting.one_of_the_counted import of_the_counted
@@ -21,7 +20,6 @@ from pat3d.plan.grammar.rewriting.set_off_shares import told_behind
 from pat3d.plan.grammar.rewriting.shorthand import known_again, out_of_brackets
 from pat3d.plan.grammar.rewriting.sided_names import by_side
 from pat3d.plan.grammar.rewriting.sized_names import by_size
-from pat3d.plan.grammar.rewriting.stacked_likes import stacked_likes
 from pat3d.plan.grammar.rewriting.subkinds import subkinds
 from pat3d.plan.grammar.rewriting.terse import in_full
 from pat3d.plan.grammar.rewriting.tiers import levels_of
@@ -41,8 +39,8 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     """
     rewritings: tuple[Rewriting, ...] = (
         partial(ordinals, text), compounds, partial(each_at_its_place, text), partial(out_of_brackets, text),
-        asked_of_the_robot, told_behind, of_drinks, known_again, between_neighbours, of_the_counted, in_full, served,
-        worked_out, subkinds, by_side, by_size, stacked_likes, of_the_carried, by_rank, at_row_ends, of_unlike_rows,
+        asked_of_the_robot, told_behind, of_drinks, known_again, of_the_counted, in_full, served,
+        worked_out, subkinds, by_side, by_size, of_the_carried, by_rank, at_row_ends, of_unlike_rows,
         levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)

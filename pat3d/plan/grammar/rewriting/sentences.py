@@ -11,7 +11,6 @@ from pat3d.plan.grammar.rewriting.beforehand import ones_named, told_before
 from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each
 from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
-from pat3d.plan.grammar.rewriting.guests import for_guests
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
 from pat3d.plan.grammar.rewriting.towers import so_that
@@ -50,7 +49,7 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _contents(_and_no_more(so_that(told_plainly(for_guests(tokens)))), nouns)
+    tokens = _contents(_and_no_more(so_that(told_plainly(tokens))), nouns)
     cut = _cut(tokens, nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
