@@ -21,6 +21,9 @@ def for_each(it: Compared) -> Iterator[tuple[int, str]]:
         if word not in EACH:
             continue
         place = it.said.words[at + 1] if at + 1 < len(it.said.words) else ""
+        if place in ("two", "pair") and it.said.words[at - 1] == "between" and "between" not in it.quoted:
+            # "Between every two vases lies a nut": of a row of them the plan has two.
+            yield at, f'not arranged: "between {word} {place}"'
         if _dealt(it, at) or {"but", "except", "save"} & set(it.said.words[at + 1 : at + 4]):
             # "Every cup but one": of one less.
             continue

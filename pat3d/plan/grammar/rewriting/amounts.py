@@ -20,11 +20,6 @@ from pat3d.plan.grammar.words.number_words import counted_before, is_number, num
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _BUT = frozenset({"but", "except", "save", "excepting", "bar"})
-_OF_SEVERAL = {
-    "has": "have", "holds": "hold", "contains": "contain", "carries": "carry", "is": "are", "was": "were",
-    "stands": "stand", "lies": "lie", "sits": "sit",
-}  # fmt: skip
-"""Verbs of one thing, and of several."""
 _ABOUT = frozenset({"about", "approximately", "roughly", "around", "exactly"})
 
 
@@ -48,7 +43,7 @@ def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt with the number where it says "half of" or "all but one of" what it has counted."""
     tokens = from_one_side(outnumbering(tokens, nouns), nouns)
-    whole = _one_and_others(_on_the_other(_on_both(stacked_high(_all_but(_every_but(_fractions(tokens)))))))
+    whole = _one_and_others(_on_the_other(stacked_high(_all_but(_fractions(tokens)))))
     return counted_in_each(whole, nouns)
 
 
@@ -135,29 +130,6 @@ def _all_but(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
-def _every_but(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "every cup but one holds a pen" as "three of the four cups hold a pen", where four were named."""
-    words = [token.text for token in tokens]
-    for at, token in enumerate(tokens[:-4]):
-        but = at + 2 + (words[at + 2] not in _BUT)
-        end = but + (3 if words[but + 1 : but + 3] == ["the", "last"] else 2)
-        if token.text not in ("every", "each") or words[but] not in _BUT or words[end - 1] not in ("one", "last"):
-            continue
-        noun = words[but - 1]
-        named = next((n for n in range(at - 1, 0, -1) if noun in singulars(words[n])), 0)
-        total = counted_before(tokens, named, words[named]) if named else 0
-        end += words[end] == "one"
-        if total < 2 or words[end] not in FINITE:
-            continue
-        told = [str(total - 1) if total > 2 else "one", "of", "the", str(total)]
-        whole = [*(replace(token, text=text) for text in told), replace(tokens[but - 1], text=words[named])]
-        stop = next(n for n in range(end, len(words)) if tokens[n].mark)
-        several = {**_OF_SEVERAL, "it": "them", "its": "their"} if total > 2 else {}
-        rest = [replace(each, text=several.get(each.text, each.text)) for each in tokens[end:stop]]
-        return [*tokens[:at], *whole, *rest, *tokens[stop:]]
-    return list(tokens)
-
-
 def _one_and_others(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "one cup is red, the other two are blue" as "one of the three cups is red, ..."."""
     words = [token.text for token in tokens]
@@ -169,21 +141,6 @@ def _one_and_others(tokens: Sequence[Token]) -> list[Token]:
     total = replace(tokens[0], text=str(number_of(words[other + 1]) + 1))
     several = replace(tokens[verb - 1], text=f"{words[verb - 1]}s")
     return [tokens[0], of, the, total, *tokens[1 : verb - 1], several, *tokens[verb:]]
-
-
-def _on_both(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "two trays: on one a pear, on the other a fig" as "two trays: on the first ..., on the second"."""
-    words = [token.text for token in tokens]
-    leads = lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.COPULAS | lexicon.VERBS
-    one = next((at for at in range(1, len(words) - 4)
-                if words[at : at + 2] == ["on", "one"] and words[at + 2] in leads), 0)  # fmt: skip
-    other = next((at for at in range(one + 3, len(words) - 3)
-                  if words[at : at + 3] == ["on", "the", "other"] and words[at + 3] in leads), 0)  # fmt: skip
-    if not one or not other or counted_before(tokens, one) != 2:
-        return list(tokens)
-    the, first = (replace(tokens[one + 1], text=text) for text in ("the", "first"))
-    second = replace(tokens[other + 2], text="second")
-    return [*tokens[: one + 1], the, first, *tokens[one + 2 : other + 2], second, *tokens[other + 3 :]]
 
 
 def _on_the_other(tokens: Sequence[Token]) -> list[Token]:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.rewriting.own_colours import in_one_way
 from pat3d.plan.grammar.rewriting.taken_from import from_side, stack_of
-from pat3d.plan.grammar.rewriting.two_arms import by_the_robot
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -54,6 +54,8 @@ _BUT = (("except", "for"), ("apart", "from"), ("other", "than"), ("but", "for"),
 _LEAVING = frozenset({"from", "off", "out", "of", "with"})
 """Words from where something is, or with what."""
 _HELD = frozenset({"lean", "hang"})
+_NEAR = frozenset({"nearest", "closest", "nearer", "closer", "furthest", "farthest", "next", "close"})
+_VIEWED = frozenset({"you", "me", "yourself", "us"})
 
 
 def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
@@ -63,7 +65,7 @@ def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
         told_before = [token.text for each in made for token in each]
         there = _another(_nothing_there(sentence), told_before, nouns)
         whole = _before_that(_stripped(_that_is(there, told_before)))
-        made += _plainly(by_the_robot(stack_of(whole)), told_before, nouns)
+        made += _plainly(_by_the_robot(stack_of(whole)), told_before, nouns)
     return made
 
 
@@ -72,11 +74,23 @@ def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[li
     made: list[list[Token]] = []
     for sentence in from_side(whole, nouns):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_able(_politely(plain)))))))))
+        plain = _inside(_so_that(_let(_got(_lowered(_emptied(_politely(plain)))))))
         piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
         for each in _from_stack(plain, piled=piled):
             made += _all_but(each)
     return made
+
+
+def _by_the_robot(sentence: list[Token]) -> list[Token]:
+    """Read "put the jar nearest to you on the shelf" as "... nearest to the robot": it is told what to do."""
+    words = [token.text for token in sentence]
+    asked = known_verb(words[int(words[0] == "please")])
+    at = next((n for n in range(2, len(words) - 2) if words[n] == "to" and words[n - 1] in _NEAR
+               and words[n + 1] in _VIEWED), 0)  # fmt: skip
+    if not asked or not at:
+        return sentence
+    robot = [replace(sentence[at + 1], text=word) for word in ("the", "robot")]
+    return [*sentence[: at + 1], *robot, *sentence[at + 2 :]]
 
 
 def _politely(sentence: list[Token]) -> list[Token]:
@@ -106,23 +120,6 @@ def _inside(sentence: list[Token]) -> list[Token]:
     if words[0] not in _TAKING or last < 2 or words[last] != "in":
         return sentence
     return [*sentence[:last], replace(sentence[last], text="inside"), sentence[-1]]
-
-
-def _able(sentence: list[Token]) -> list[Token]:
-    """Read "can the green book go between the two red ones" as "put the green book between the two red ones"."""
-    words = [token.text for token in sentence]
-    if words[0] not in _ABLE or words[1] not in _LEADS:
-        return sentence
-    go = next((n for n in range(3, len(words) - 2) if words[n] == "go" or words[n : n + 2] in (
-               ["be", "put"], ["be", "placed"], ["be", "moved"])), 0)  # fmt: skip
-    after = go + 1 + (words[go] == "be")
-    if not go or any(token.mark for token in sentence[:go]) or not link_at(sentence, after):
-        return sentence
-    return [
-        replace(sentence[0], text="move" if words[go + 1] == "moved" else "put"),
-        *sentence[1:go],
-        *sentence[after:],
-    ]
 
 
 def _emptied(sentence: list[Token]) -> list[Token]:
@@ -162,18 +159,6 @@ def _lowered(sentence: list[Token]) -> list[Token]:
             if words[next(ends)] in ("in", "into", "on", "onto"):
                 return [*sentence[:at], replace(sentence[at], text="put"), *sentence[at + 1 :]]
     return sentence
-
-
-def _cleared(sentence: list[Token]) -> list[Token]:
-    """Read "clear the table by putting the cups on the tray" as "put the cups from the table on the tray"."""
-    words = [token.text for token in sentence]
-    by = words.index("by") if words[0] in ("clear", "empty") and "by" in words[2:6] else 0
-    verb = base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None
-    to = next((n for n in range(by + 3, len(words) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
-    if verb not in _TAKING or words[1] not in _LEADS or not to or sentence[to].mark:
-        return sentence
-    put, source = replace(sentence[0], text=verb), replace(sentence[0], text="from")
-    return [put, *sentence[by + 2 : to], source, *sentence[1:by], *sentence[to:]]
 
 
 def _got(sentence: list[Token]) -> list[Token]:

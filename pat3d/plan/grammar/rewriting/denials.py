@@ -29,7 +29,6 @@ _WORKING = frozenset({"work", "works", "function", "functions", "run", "runs", "
 _WITHOUT = (("free", "of"), ("free", "from"), ("devoid", "of"), ("void", "of"), ("bare", "of"), ("bereft", "of"),
             ("missing",), ("lacking",), ("lacks",), ("lack",), ("minus",), ("sans",), ("empty", "of"), ("out", "of"),
             ("low", "on"), ("short", "of"))  # fmt: skip
-_ISNT = frozenset({"isn't", "aren't", "wasn't", "weren't", "doesn't", "don't", "hasn't", "haven't"})
 _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than"), ("save", "for"), ("but", "for"),
         ("but",), ("except",), ("save",), ("besides",), ("than",))  # fmt: skip
 _LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()

@@ -308,24 +308,6 @@ def _full_sides(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
-def absolute(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a pot, its lid beside it, on a hob" as "a pot and a lid on a hob, and the lid is beside it"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        link = next((n for n in range(at + 3, min(at + 6, len(words))) if link_at(tokens, n)), 0)
-        end = link + link_at(tokens, link) if link else 0
-        named = words[at : at + 2] == [",", "its"] and nouns.match([words[at - 1]])
-        if not (named and end and words[end : end + 2] == ["it", ","] and nouns.match([words[link - 1]])):
-            continue
-        stop = next(n for n in range(end + 2, len(words)) if words[n] == ".")
-        a, the, joint, verb = (replace(tokens[at + 1], text=text) for text in ("a", "the", "and", "is"))
-        thing, goes_on = tokens[at + 2 : link], words[end + 2] == "and"
-        listed = [tokens[at] if goes_on else joint, a, *thing, *tokens[end + 2 - goes_on : stop]]
-        told = [joint, the, *thing, verb, *tokens[link:end], the, tokens[at - 1]]
-        return [*tokens[:at], *listed, tokens[at], *told, *tokens[stop:]]
-    return list(tokens)
-
-
 def fronted(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "stacked on the chair are three books" as "on the chair are three books stacked"."""
     tokens = _places_ahead(tokens)

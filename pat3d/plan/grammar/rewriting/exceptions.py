@@ -22,7 +22,7 @@ _SAVE = frozenset({"except", "save", "excepting", "only"})
 def exceptions(told: list[list[Token]]) -> list[list[Token]]:
     """The sentences `told` with what is excepted in a sentence of its own."""
     plain = [each for at, sentence in enumerate(told) for each in _of_others(_but(sentence), told[:at])]
-    return [each for sentence in plain for each in (_coloured(sentence) or _described(sentence) or _asked(sentence))]
+    return [each for sentence in plain for each in (_described(sentence) or _asked(sentence))]
 
 
 def coloured_alike(sentence: list[Token], nouns: Nouns) -> list[Token]:
@@ -146,26 +146,6 @@ def _asked(sentence: list[Token]) -> list[list[Token]]:
     ]
 
 
-def _coloured(sentence: list[Token]) -> list[list[Token]]:
-    """Tell "five mugs, all white except the second, which is red" as "five mugs" and "the second is red, ..."."""
-    words = [token.text for token in sentence]
-    for at in range(3, len(words) - 2):
-        size = next((len(said) for said in _EXCEPT if tuple(words[at : at + len(said)]) == said), 0)
-        start = next((n for n in (at - 2, at - 3) if n > 1 and words[n - 1 : n + 1] == [",", "all"]), 0)
-        if not size or not start or not is_colour_word(words[at - 1]) or words[at - 2] not in ("all", "are", "of"):
-            continue
-        found = _member(sentence, at + size)
-        if found is None:
-            return []
-        member, colour = found
-        are = [replace(sentence[at], text=word) for word in (",", "the", "others", "are")]
-        are[0] = replace(are[0], mark=True)
-        is_ = replace(colour, text="is")
-        stop = replace(sentence[start - 1], text=".")
-        return [[*sentence[: start - 1], stop], [*member, is_, colour, *are, sentence[at - 1], sentence[-1]]]
-    return []
-
-
 def _described(sentence: list[Token]) -> list[list[Token]]:
     """Tell "every mug is upside down apart from the green one" as "there is a green mug, all other mugs are ..."."""
     words = [token.text for token in sentence]
@@ -194,22 +174,3 @@ def _described(sentence: list[Token]) -> list[list[Token]]:
             [*several, *sentence[start : link - 1], nouns, *place, are, *sentence[verb + 1 : at], stop],
         ]
     return []
-
-
-def _member(sentence: Sequence[Token], at: int) -> tuple[list[Token], Token] | None:
-    """The one of "the second one, which is red", "one, which is red" or "one red one" at `at`, and its colour."""
-    end = next(n for n in range(at, len(sentence)) if sentence[n].text == ".")
-    said = [token for token in sentence[at:end] if not token.mark]
-    words = [token.text for token in said]
-    if len(words) < 3 or sum(is_colour_word(word) for word in words) != 1:
-        return None
-    colour = next(token for token in said if is_colour_word(token.text))
-    if words[-3:-1] in (["which", "is"], ["that", "is"]) and colour is said[-1]:
-        head = said[:-3]
-    elif words[-1] in ("one", "ones") and colour is said[-2]:
-        head = said[:-2]
-    else:
-        return None
-    told = {"the", "one", *lexicon.POSITIONS, "from", "left", "right"}
-    plain = head and all(token.text in told for token in head) and words[0] in ("the", "one")
-    return (head, colour) if plain else None

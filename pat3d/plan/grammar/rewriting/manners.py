@@ -28,9 +28,7 @@ _EXTREME = (
 )
 _SIDE = r"(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 _RANKED = re.compile(rf"from (?:the )?{_EXTREME}{_SIDE} to (?:the )?{_EXTREME}{_SIDE} ")
-_CLEARING = frozenset({"clear", "remove", "take", "move", "clean", "wipe"})
 _ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
-_EVERYTHING = frozenset({"everything", "anything", "all"})
 
 
 _SAID_SO = tuple(tuple(said.split()) for said in (
@@ -52,9 +50,9 @@ _UNSEEN = frozenset({"can't", "cannot", "won't", "isn't", "aren't", "not", "does
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, _style, _stuffs, _said_so, _ready, _if, _knocking, _than, _outlined, _grouped, _state,
-                 _labels, in_turn, _in_that_order, _by_measure, _such_that, _alternate, _all_but, _trait, ways.begun,
-                 ways.often, ways.until, ways.parallel, ways.leaping):  # fmt: skip
+    for told in (choice, _style, _stuffs, _said_so, _ready, _if, _than, _outlined, _grouped, _state,
+                 _labels, in_turn, _in_that_order, _by_measure, _such_that, _trait, ways.begun,
+                 ways.often, ways.until, ways.parallel):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
             rest, more = without_manners(kept, nouns)
@@ -135,15 +133,6 @@ def _if(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
         start = at - (words[at - 1] == ",")
         rest = end + (words[end] == "," and words[at - 1] != ",")
         return [*tokens[:start], *tokens[rest:]], [(tokens[at], tokens[end - 1])]
-    return None
-
-
-def _knocking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "knock none over and bring the cup" as "bring the cup"."""
-    for at in range(len(words) - 4):
-        if words[at] == "knock" and words[at + 1] in ("none", "nothing") and words[at + 2] in ("over", "down"):
-            end = at + 3 + (words[at + 3] in ("and", ","))
-            return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[at + 2])]
     return None
 
 
@@ -283,32 +272,3 @@ def _such_that(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told 
             return None
     start = at - (words[at - 1] == ",")
     return [*tokens[:start], tokens[-1]], [(tokens[at], tokens[-2])]
-
-
-def _alternate(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "three red cups and three blue cups alternate in a row" as "... are in a row"."""
-    at = next((n for n in range(3, len(words) - 2) if words[n] == "alternate" and link_at(tokens, n + 1)), 0)
-    if not at or words[at - 1] in lexicon.RELATIVES or nouns.match([words[at - 1]]) is None:
-        return None
-    return [*tokens[:at], replace(tokens[at], text="are"), *tokens[at + 1 :]], [(tokens[at], tokens[at])]
-
-
-def _all_but(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "clear everything off the desk except the laptop", "clear the desk but for it", as "it is on the desk"."""
-    at = next((n for n in range(3, len(words) - 2) if words[n] in ("except", "but")), 0)
-    everything = words[0] in _CLEARING and words[1] in _EVERYTHING and words[2] in ("off", "from")
-    first = 3 if everything else 1
-    clears = everything or (
-        words[0] in ("clear", "empty", "tidy") and (words[at] == "except" or words[at + 1] == "for")
-    )
-    if not (at and clears and words[first] in lexicon.DETERMINERS) or at > first + 3:
-        return None
-    start = at + 1 + (words[at + 1] == "for")
-    place = tokens[first:at]
-    if words[start] not in lexicon.DETERMINERS or any(link_at(tokens, n) or tokens[n].text == "one"
-                                                     for n in range(start, len(tokens))):  # fmt: skip
-        return None
-    name = nouns.match([words[at - 1]])
-    near = "in" if name is not None and nouns.of_class(name.noun, lexicon.HOLLOW) else "on"
-    on = [replace(tokens[at], text=word) for word in ("are" if "and" in words[start:] else "is", near)]
-    return [*tokens[start:-1], *on, *place, tokens[-1]], [(tokens[0], tokens[-2])]

@@ -14,7 +14,6 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.amounts import counted
 from pat3d.plan.grammar.rewriting.commands import allowed
 from pat3d.plan.grammar.rewriting.displaced import (
-    absolute,
     asked,
     by_which,
     fronted,
@@ -87,11 +86,11 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
     refuse_negations(tokens)
-    tokens = absolute(on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns), nouns)
+    tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
     tokens = _beside_the_first(tokens, nouns)
     tokens = _set_off(text, _inserted(tokens))
-    tokens = _counted_after(_owned(_lid_on(tokens), nouns), nouns)
+    tokens = _owned(tokens, nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))
     return of_what(_relatives(by_which(borne, nouns), nouns))
 
@@ -246,21 +245,6 @@ def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return list(tokens)
 
 
-def _lid_on(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a pot with its lid on" as "a pot with its lid on it"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        made.append(token)
-        closing = token.text == "on" and at > 2 and tokens[at - 1].text in lexicon.ON_RIMS
-        if (
-            closing
-            and (tokens[at + 1].mark or tokens[at + 1].text == "and")
-            and "with" in (tokens[at - 2].text, tokens[at - 3].text)
-        ):
-            made.append(replace(token, text="it"))
-    return made
-
-
 def _owned(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the pot's lid" as "the lid", where the pot is spoken of elsewhere too."""
     words = [token.text for token in tokens]
@@ -273,24 +257,6 @@ def _owned(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         else:
             made.append(token)
     return made
-
-
-def _counted_after(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "bowls, of which there are two," as "two bowls"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        start = at + (words[at] == ",")
-        if words[start : start + 3] != ["of", "which", "there"] or words[start + 3] not in lexicon.COPULAS:
-            continue
-        size = next((n for n in (3, 2, 1) if n <= at and nouns.match(words[at - n : at])), 0)
-        number = start + 4
-        if size and words[number] in lexicon.NUMBERS and tokens[number + 1].mark:
-            after = number + 1 + (words[number + 1] == ",")
-            head = tokens[: at - size]
-            while head and (head[-1].text == "the" or is_modifier(head[-1].text)):
-                size, head = size + 1, head[:-1]
-            return [*head, tokens[number], *tokens[at - size : at], *tokens[after:]]
-    return list(tokens)
 
 
 def _plain_words(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -13,7 +13,6 @@ from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
-from pat3d.plan.grammar.rewriting.towers import so_that
 from pat3d.plan.grammar.rewriting.wanted_states import brought_about
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
@@ -49,13 +48,13 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _contents(_and_no_more(so_that(told_plainly(tokens))), nouns)
+    tokens = _contents(_and_no_more(told_plainly(tokens)), nouns)
     cut = _cut(tokens, nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
     told = _conditions(brought_about(_labelled(parts)))
-    told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(_wherever(each))]
+    told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(each)]
     told = [coloured_alike(each, nouns) for each in exceptions(_come_to_rest(told))]
     told = one_for_each(_reordered(told, nouns))
     return [sentence for sentence in told if len(sentence) > 1]
@@ -190,17 +189,6 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
         else:
             made.append(sentence)
     return made
-
-
-def _wherever(sentence: list[Token]) -> list[Token]:
-    """Read "wherever there is a plate there is also a fork on it" as "every plate has a fork on it"."""
-    words = [token.text for token in sentence]
-    at = next((n for n in range(5, len(words) - 3) if words[n : n + 2] == ["there", "is"]), 0)
-    if words[:4] != ["wherever", "there", "is", "a"] or not at or ":" in words:
-        return sentence
-    named = sentence[4 : at - (words[at - 1] == ",")]
-    has = replace(sentence[at], text="has")
-    return [replace(sentence[0], text="every"), *named, has, *sentence[at + 2 + (words[at + 2] == "also") :]]
 
 
 def _no_longer(told: list[list[Token]]) -> list[list[Token]]:

@@ -9,7 +9,6 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE, LINKS
-from pat3d.scene.relations import LATERAL_KINDS
 
 
 def in_several_places(tokens: Sequence[Token]) -> list[Token]:
@@ -47,7 +46,7 @@ def _each_place(tokens: list[Token]) -> list[Token]:
         end = stop - (start != starts[-1]) * (1 + (words[stop - 1] == "and"))
         begin = start + 2 * (words[start : start + 2] in (["it", "is"], ["they", "are"]))
         if not _says_where(tokens, begin) or any(word in FINITE for word in words[begin:end]):
-            return _each_landmark(tokens, verb, after)
+            return tokens
         parts.append((begin, end))
     if len(parts) < 3:
         return tokens
@@ -55,30 +54,6 @@ def _each_place(tokens: list[Token]) -> list[Token]:
     for start, end in parts[1:]:
         made += [replace(tokens[start], text=",", mark=True), replace(tokens[start], text="and", mark=False)]
         made += [*_known(tokens[:verb]), tokens[verb], *tokens[start:end]]
-    return [*made, tokens[-1]]
-
-
-def _each_landmark(tokens: list[Token], verb: int, after: int) -> list[Token]:
-    """`tokens` with "is behind the plate, the bowl and the can" one by one."""
-    words = [token.text for token in tokens]
-    size = link_at(tokens, after)
-    link = LINKS.get(tuple(words[after : after + size]))
-    parts: list[list[Token]] = [[]]
-    for token in tokens[after + size : -1]:
-        if token.text in (",", "and"):
-            parts.append([])
-        else:
-            parts[-1].append(token)
-    named = [part for part in parts if part]
-    plain = all(part[0].text in lexicon.DETERMINERS for part in named) and not any(
-        each.mark or each.text in FINITE or link_at(part, n) for part in named for n, each in enumerate(part)
-    )
-    if link is None or link.kind not in LATERAL_KINDS or link.manner != "place" or len(named) < 3 or not plain:
-        return tokens
-    made = [*tokens[: after + size], *named[0]]
-    for part in named[1:]:
-        made += [replace(part[0], text=",", mark=True), replace(part[0], text="and", mark=False)]
-        made += [*_known(tokens[:verb]), *tokens[verb : after + size], *part]
     return [*made, tokens[-1]]
 
 

@@ -37,13 +37,11 @@ _BEFORE = {"central": "middle", "middlemost": "middle", "rear": "back", "rearmos
            "right-hand": "right"}  # fmt: skip
 _RANKS = lexicon.POSITIONS.keys() | _BEFORE.keys()
 _FAR = frozenset({"far", "extreme", "furthest", "farthest"})
-_GOING = frozenset({"put", "place", "set", "lay", "stand", "move", "keep", "leave", "position", "arrange"})
-"""Verbs that say where a thing is to go: "put the lemon on the left"."""
 
 
 def by_side(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the lemon on the left" as "the left lemon", where several lemons were named before."""
-    tokens = _plainly(_of_all(_at_ends(tokens, nouns)), nouns)
+    tokens = _plainly(_of_all(tokens), nouns)
     words = [token.text for token in tokens]
     made, at = list[Token](), 0
     while at < len(tokens):
@@ -55,7 +53,7 @@ def by_side(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         # "Beside the one on the left"; by itself it may be another basket: "the basket on the left ..., the one on"
         landmark = any(at - n >= 0 and link_at(tokens, at - n) == n for n in (1, 2, 3, 4))
         one = name == "one" and bool(likes) and (landmark or tuple(words[place:end]) in _ENDS)
-        if place and (name in likes or one) and not _goes(tokens, at, end):
+        if place and (name in likes or one):
             told = [tokens[at], replace(tokens[place], text=side), *tokens[at + 1 : place]]
             made += [replace(token, start=tokens[at].start, end=tokens[end - 1].end) for token in told]
             at = end
@@ -99,25 +97,6 @@ def _likes(words: Sequence[str], nouns: Nouns) -> set[str]:
     return {one for word in words for one in singulars(word) if nouns.match([word])}
 
 
-def _at_ends(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "the cup at the right end" as "the cup on the right"."""
-    made: list[Token] = []
-    words = [token.text for token in tokens]
-    for at, token in enumerate(tokens):
-        side = words[at - 1] in ("left", "right") and words[at - 3 : at - 1] == ["at", "the"] if at > 4 else False
-        named = (
-            side
-            and "the" in words[max(at - 7, 0) : at - 3]
-            and (words[at - 4] == "one" or nouns.match([words[at - 4]]))
-        )
-        if token.text == "end" and named and words[at + 1 : at + 2] != ["of"]:
-            made[-3] = replace(made[-3], text="on")
-            made[-1] = replace(made[-1], end=token.end)
-        else:
-            made.append(token)
-    return made
-
-
 def singular_of(word: str) -> str:
     """`word` itself where it is the name of one thing, nothing where it is a plural."""
     return "" if singulars(word) else word
@@ -141,10 +120,3 @@ def _place_behind(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, 
             more = more or (said == ("behind",) and words[end] not in FINITE and not tokens[end].mark)
             return (0, 0, "") if more else (place, end, side)
     return 0, 0, ""
-
-
-def _goes(tokens: Sequence[Token], at: int, end: int) -> bool:
-    """Whether the place up to token `end` is where the thing at token `at` is to go, and not by which it is told."""
-    asked = at > 0 and tokens[at - 1].text in _GOING
-    behind = next((n for n in range(end, len(tokens)) if tokens[n].mark or link_at(tokens, n)), len(tokens))
-    return asked and (behind == len(tokens) or tokens[behind].mark)

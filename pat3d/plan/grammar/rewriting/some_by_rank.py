@@ -41,7 +41,7 @@ def some_by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = list(tokens)
     at = 1
     while at < len(made) - 3:
-        told = _end_of_several(made, at, nouns) or _another_few(made, at, nouns) or _one_by_rank(made, at, nouns)
+        told = _end_of_several(made, at, nouns) or _another_few(made, at, nouns)
         made, at = told if told is not None else (made, at + 1)
     return made
 
@@ -115,24 +115,6 @@ def _another_few(tokens: list[Token], at: int, nouns: Nouns) -> tuple[list[Token
     of_them = ["of", "them"] if words[behind] in HOLDING else []
     few = [tokens[at + another], *(replace(tokens[at + another], text=word) for word in of_them)]
     return [*tokens[:at], *few, *tokens[behind:]], at + len(few)
-
-
-def _one_by_rank(tokens: list[Token], at: int, nouns: Nouns) -> tuple[list[Token], int] | None:
-    """`tokens` with "the first contains nuts" as "the first bowl contains nuts": what it holds has no determiner."""
-    words = [token.text for token in tokens]
-    ranked = (
-        words[at] == "the" and words[at + 1] in (*ORDINALS, "last") and (tokens[at - 1].mark or words[at - 1] == "and")
-    )
-    holds = ranked and words[at + 2] in HOLDING.values()
-    thing = nouns.match(words[at + 2 + holds : at + 3 + holds]) if ranked else None
-    bare = thing is not None and (thing.plural or words[at + 2 + holds] in lexicon.SUBSTANCES)
-    counted = counted_before(words, at, nouns) if bare else None
-    verb = tokens[at + 2] if holds else _verb_before(tokens, at)
-    if counted is None or verb is None or (thing is not None and nouns.match(counted.name) == thing):
-        return None
-    named = [replace(tokens[at + 1], text=word) for word in counted.name]
-    said = replace(verb, text=HOLDING.get(verb.text, verb.text))
-    return [*tokens[: at + 2], *named, said, *tokens[at + 2 + holds :]], at + 3 + len(named)
 
 
 def _pairs(words: Sequence[str], start: int, end: int) -> list[list[str]]:

@@ -24,8 +24,6 @@ def stacked_high(tokens: Sequence[Token]) -> list[Token]:
             # "A tower of red blocks, six blocks high"
             kept = [*tokens[: built + 2], tokens[start], *tokens[built + 2 : start - (words[start - 1] == ",")]]
             return [*kept, *tokens[at + 1 :]]
-    if (of_stacks := _each_so_high(tokens)) is not None:
-        return of_stacks
     for at in range(1, len(words) - 2):
         number = at + 1 + (words[at + 1] == ",")
         high = number_of(words[number])
@@ -68,18 +66,3 @@ def _counted_head(words: Sequence[str], at: int) -> tuple[int, int] | None:
     while first and is_modifier(words[first - 1]) and not is_number(words[first - 1]):
         first -= 1
     return first, number_of(words[first - 1]) if first else 0
-
-
-def _each_so_high(tokens: Sequence[Token]) -> list[Token] | None:
-    """`tokens` with "two stacks of boxes, each three high" as "two stacks of three boxes"; None without."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 2):
-        each = at + (words[at] == ",")
-        told = words[each] == "each" and number_of(words[each + 1])
-        if not told or words[min(each + 2, len(words) - 1)] != "high":
-            continue
-        of = next((n for n in range(at - 1, 0, -1) if words[n] == "of" and words[n - 1] in _STACKS), 0)
-        if of and not any(is_number(word) or word in (",", ".") for word in words[of:at]) and number_of(words[of - 2]):
-            end = each + 3 + (each > at and words[each + 3] == ",")
-            return [*tokens[: of + 1], tokens[each + 1], *tokens[of + 1 : at], *tokens[end:]]
-    return None

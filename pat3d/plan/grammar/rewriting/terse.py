@@ -17,7 +17,6 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _GRID = re.compile(r"[2-9]x[2-9]")
 _FORMS = frozenset({"row", "line", "circle", "ring", "stack", "pile"})
-_BUILT = frozenset({"tower", "stack", "pile", "column"})
 _TELLING = frozenset({"biggest", "smallest", "tallest", "shortest", "largest", "longest"}) | {
     word for word in lexicon.POSITIONS if word not in ("left", "right", "front", "back")
 }
@@ -30,7 +29,7 @@ def in_full(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the small words that a jotted note leaves out."""
     tokens = _fruits(_times(_sized_grids(_set_off(tokens, nouns)), nouns), nouns)
     told = _the_counted(_the(_articles(tokens, nouns)), nouns)
-    return _are(_listed(_counted(_before(_of(told, nouns), nouns), nouns), nouns), nouns)
+    return _are(_listed(_before(told, nouns), nouns), nouns)
 
 
 def _set_off(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
@@ -170,19 +169,6 @@ def _the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
-def _of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a cube tower 4 high" as "a tower of 4 cubes"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 3):
-        size = _noun_before(tokens, at, nouns)
-        counted = words[at + 1].isdecimal() or words[at + 1] in lexicon.NUMBERS
-        if words[at] in _BUILT and size and counted and words[at + 2] == "high":
-            name = [*tokens[at - size : at - 1], replace(tokens[at - 1], text=f"{words[at - 1]}s")]
-            of = replace(tokens[at], text="of")
-            return [*tokens[: at - size], tokens[at], of, tokens[at + 1], *name, *tokens[at + 3 :]]
-    return list(tokens)
-
-
 def _before(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "table round, cup white on a tray" as "round table, white cup on a tray"."""
     made = list(tokens)
@@ -196,18 +182,6 @@ def _before(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         looks = looks and nouns.match([tokens[at].text]) is None
         if opens and ends and looks and not whole and not singulars(tokens[at - 1].text):
             made[start : at + 1] = [tokens[at], *tokens[start:at]]
-    return made
-
-
-def _counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "round table 4 chairs" as "round table, 4 chairs"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        after = tokens[min(at + 1, len(tokens) - 1)].text
-        number = token.text.isdecimal() and int(token.text) > 1 and bool(singulars(after))
-        if number and nouns.match([after]) and _noun_before(tokens, at, nouns) and not tokens[at - 1].mark:
-            made.append(replace(token, text=",", end=token.start, mark=True))
-        made.append(token)
     return made
 
 

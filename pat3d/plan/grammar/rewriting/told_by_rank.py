@@ -24,8 +24,8 @@ _ENDS = {
 
 def by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with those that were counted in a sentence before told by the words for their ranks."""
-    told = _another_holds(_third_holds(_front_and_back(some_by_rank(tokens, nouns)), nouns))
-    return _in_turn(_named(told, nouns), nouns)
+    told = _another_holds(_front_and_back(some_by_rank(tokens, nouns)))
+    return _in_turn(told, nouns)
 
 
 def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str] | None:
@@ -73,37 +73,6 @@ def _front_and_back(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
-def _third_holds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a cup holds a fig, another two figs and the third a nut" told of three cups, with its verb."""
-    words = [token.text for token in tokens]
-    counting = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
-    for third in range(6, len(words) - 2):
-        start = next((n + 1 for n in range(third, -1, -1) if words[n] == "."), 0)
-        verb = next((n for n in range(start, third) if words[n] in HOLDING.values()), 0)
-        another = next((n for n in range(verb, third) if words[n] == "another" and words[n - 1] in (",", "and")), 0)
-        size = next((n for n in (3, 2, 1) if verb - start > n and nouns.match(words[verb - n : verb])), 0)
-        single = size and words[start] in ("a", "an", "one")
-        told = (
-            words[third : third + 2] == ["the", "third"]
-            and words[third + 2] in counting
-            and words[third - 1] in (",", "and")
-        )
-        if not (told and verb and another and single and words[another + 1] in counting):
-            continue
-        name = tokens[verb - size : verb + 1]
-        a = replace(tokens[third], text="a")
-        return [
-            *tokens[: another + 1],
-            *name,
-            *tokens[another + 1 : third],
-            a,
-            tokens[third + 1],
-            *name,
-            *tokens[third + 2 :],
-        ]
-    return list(tokens)
-
-
 def _another_holds(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "one holds a fig and another a pen" as "one holds a fig and another holds a pen"."""
     made: list[Token] = []
@@ -117,25 +86,6 @@ def _another_holds(tokens: Sequence[Token]) -> list[Token]:
         verb = next((n for n in range(start, end) if words[n] in HOLDING.values()), 0)
         if words[start] == "one" and verb and words[at + 1] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() - {"one"}:
             made.append(replace(tokens[verb], start=token.end, end=token.end))
-    return made
-
-
-def _named(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a desk holds two boxes. The first holds a fig" as "... The first box holds a fig"."""
-    made: list[Token] = []
-    words = [token.text for token in tokens]
-    for at, token in enumerate(tokens):
-        made.append(token)
-        stop = next((n for n in range(at, 0, -1) if words[n] == "."), 0)
-        ranked = token.text in ORDINALS and words[at - 1] == "the" and at + 1 < len(words) and stop
-        if not ranked or (words[stop + 1 : stop + 3] not in (["the", "first"],)):
-            continue
-        start = next((n + 1 for n in range(stop - 1, -1, -1) if words[n] == "."), 0)
-        held = {"holds", "carries", "has"} & {*words[start:stop]}
-        counted = counted_in(words, stop, nouns) if held else None
-        follows = words[at + 1] in HOLDING.values() or words[at + 1] in lexicon.DETERMINERS | lexicon.NUMBERS.keys()
-        if counted is not None and follows:
-            made += [replace(token, text=word) for word in counted[1].split()]
     return made
 
 

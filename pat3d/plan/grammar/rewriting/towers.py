@@ -122,30 +122,6 @@ def _one_on_another(tokens: Sequence[Token], parts: Sequence[Sequence[Token]]) -
     return [*made, tokens[-1]]
 
 
-def so_that(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` of a prompt with "stack three cubes so that the red one is on top" as "..., the red one on top"."""
-    made: list[Token] = []
-    start = 0
-    for end, token in enumerate(tokens):
-        if token.text == ".":
-            made += _in_levels(tokens[start : end + 1])
-            start = end + 1
-    return [*made, *tokens[start:]]
-
-
-def _in_levels(tokens: Sequence[Token]) -> Sequence[Token]:
-    words = [token.text for token in tokens]
-    at = next((n for n in range(2, len(words) - 4) if words[n : n + 2] in (["so", "that"], ["such", "that"])), 0)
-    counted = at and (words[0] in lexicon.NUMBERS or (words[0] in _STACKS and words[1] in lexicon.NUMBERS))
-    levels = {n for n in range(at, len(words)) for key in _LEVELS if tuple(words[n : n + len(key)]) == key}
-    said = {n - 1 for n in levels if words[n - 1] in lexicon.COPULAS}
-    if not counted or not said or len(levels) < 2 or not _STACKS & set(words[:at]):
-        return tokens
-    before = [token for token in tokens[:at] if token.text not in (*lexicon.COPULAS, ",")]
-    after = [token for n, token in enumerate(tokens) if n > at + 1 and n not in said]
-    return [*before, replace(tokens[at], text=",", mark=True), *after]
-
-
 def of_things(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a tower with exactly three blocks" as "a tower of three blocks", and what is on top with it."""
     tokens = _topping(_in_a_tower(_out_of(tokens), nouns), nouns)

@@ -13,11 +13,9 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_marked, is_modifier
-from pat3d.plan.grammar.words.number_words import is_number
 from pat3d.plan.grammar.words.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_COLOURS = ("colors", "colours")
 _COLOUR = ("color", "colour", "hue")
 _USUAL = """
 all of the/these/those/my/your/our/his/her = all 1
@@ -103,15 +101,6 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
-_RAINBOWS = tuple(
-    tuple(said.split())
-    for colours in _COLOURS
-    for said in (f"in rainbow {colours}", f"in the {colours} of the rainbow", f"in all {colours} of the rainbow",
-                 f"in all the {colours} of the rainbow", f"of all {colours} of the rainbow")
-)  # fmt: skip
-_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
-_IN_TURN = 12
-"""Things in a row that take turns, at most."""
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -120,44 +109,8 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
     usual = _plain(_alike(_alternating(_hued(tokens)), nouns))
-    tokens = respectively(_the_one(_number_of(_compared(_rainbow(usual, nouns), nouns))))
+    tokens = respectively(_compared(usual, nouns))
     return made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns)
-
-
-def _number_of(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "the number of pears in the bowl is three" as "three pears are in the bowl"."""
-    words = [token.text for token in tokens]
-    if words[:3] != ["the", "number", "of"] or words[-3] not in ("is", "equals") or not is_number(words[-2]):
-        return tokens
-    link = next((n for n in range(4, len(words) - 3) if link_at(tokens, n)), 0)
-    are = [replace(tokens[-3], text="are")] if link else []
-    return [tokens[-2], *tokens[3 : link or -3], *are, *(tokens[link:-3] if link else ()), tokens[-1]]
-
-
-def _the_one(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "the one of the three cups that is leftmost" as "the leftmost of the three cups".
-
-    So is "whichever of the two cups is nearer to it" "the one of the two cups nearer to it".
-    """
-    words = [token.text for token in tokens]
-    for at in range(len(words) - 6):
-        one = 2 if words[at : at + 2] == ["the", "one"] else int(words[at] == "whichever")
-        if not one or words[at + one : at + one + 2] != ["of", "the"]:
-            continue
-        end = next((n for n in range(at + one + 2, len(words)) if tokens[n].mark), 0)
-        that = next((n for n in range(at + one + 2, end) if words[n] in ("that", "which", "is")), 0)
-        verb = that + (words[that] != "is")
-        if not that or words[verb] != "is" or any(link_at(tokens, n) for n in range(at + one + 1, that)):
-            continue
-        which = words[verb + 1]
-        told = which in lexicon.SUPERLATIVES and tokens[verb + 2].mark
-        if told or (which in ("leftmost", "rightmost") and not link_at(tokens, verb + 2)):
-            return [*tokens[:at], replace(tokens[at], text="the"), tokens[verb + 1], *tokens[at + one : that],
-                    *tokens[verb + 2 :]]  # fmt: skip
-        if one == 1:
-            the = [replace(tokens[at], text=word) for word in ("the", "one")]
-            return [*tokens[:at], *the, *tokens[at + 1 : that], *tokens[verb + 1 :]]
-    return tokens
 
 
 def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -178,18 +131,6 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         made.append(tokens[at])
         at += 1
     return made
-
-
-def _rainbow(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
-    """`tokens` with "five blocks in the colors of the rainbow" as "five rainbow blocks"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 2):
-        size = next((len(said) for said in _RAINBOWS if tuple(words[at : at + len(said)]) == said), 0)
-        name = next((n for n in (3, 2, 1) if size and n < at and nouns.match(words[at - n : at])), 0)
-        if name:
-            colour = replace(tokens[at], text="rainbow", end=tokens[at + size - 1].end)
-            return [*tokens[: at - name], colour, *tokens[at - name : at], *tokens[at + size :]]
-    return tokens
 
 
 def _alternating(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -370,3 +311,6 @@ def _one_adjective(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             made.append(tokens[at])
             at += 1
     return made
+_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
+_IN_TURN = 12
+"""Things in a row that take turns, at most."""

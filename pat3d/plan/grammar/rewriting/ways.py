@@ -18,8 +18,6 @@ _OPENING = frozenset({"let's", "let", "'s", "us", "first", "then", "now", "pleas
                       "you", "should", "can", "could", "will", "must", "to"})  # fmt: skip
 _EACH_OTHER = (("each", "other"), ("one", "another"), ("eachother",))
 _BOUNDS = lexicon.BACKGROUND | frozenset({"wall", "walls", "window", "ground", "floor", "edge", "side"})
-_LEAPING = frozenset({"jump", "leap", "hop", "climb", "crawl"})
-_OFF = frozenset({"off", "down", "over", "from", "across"})
 _ROWS = frozenset({"row", "rows", "line", "lines", "column", "columns", "stacks"})
 
 
@@ -75,13 +73,4 @@ def parallel(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         if words[at + 2] not in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"it"} or _BOUNDS & {*words[at:stop]}:
             return None
         return [*tokens[:at], replace(tokens[at], text="next"), *tokens[at + 1 :]], [(tokens[at], tokens[at + 1])]
-    return None
-
-
-def leaping(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "the cat jumps off of the table" as "the cat off of the table"."""
-    for at in range(1, len(words) - 3):
-        leaps = base_verb(words[at]) in _LEAPING and words[at] not in _LEAPING and not words[at].endswith("ing")
-        if leaps and words[at + 1] in _OFF and nouns.match([words[at - 1]]) is not None:
-            return [*tokens[:at], *tokens[at + 1 :]], [(tokens[at], tokens[at])]
     return None
