@@ -22,10 +22,8 @@ PLANNER = GrammarPlanner()
         ("A jar on a shelf with books on it.", ("book 1", "on", "shelf")),
         ("A box that holds two cups and one of the cups is red.", ("red cup", "in", "box")),
         ("The spoon is on the right side of the bowl and the napkin on the left side.", ("napkin", "left_of", "bowl")),
-        ("The left plate holds one egg, the right plate three.", ("egg 3", "on", "plate 2")),
         ("In the basket there exists a pear.", ("pear", "in", "basket")),
         ("Throw in a crate with two pears.", ("pear 2", "in", "crate")),
-        ("A jar containing between two and three plums.", ("plum 3", "in", "jar")),
         ("Three cups in a row. The second cup and the third cup hold an egg.", ("egg 1", "in", "cup 2")),
     ],
 )
@@ -65,21 +63,6 @@ def test_edges_and_radii_are_sizes(prompt: str, metres: float):
     assert extent.metres == pytest.approx(metres)
     assert not plan.notes
     assert sum(obj.noun == plan.objects[0].noun for obj in plan.objects) == 1
-
-
-@pytest.mark.parametrize(
-    "prompt",
-    [
-        "Stack three bricks so that the white one is at the bottom, the red one in the middle and the blue one on top.",
-        "Three bricks are stacked such that the white one is at the bottom, the red one is in the middle and the blue "
-        "one is on top.",
-    ],
-)
-def test_a_stack_so_that_one_is_on_top(prompt: str):
-    plan = PLANNER.plan(prompt)
-    assert [str(rel) for rel in plan.relations] == ["red brick on white brick", "blue brick on red brick"]
-    assert plan.task is None
-    assert plan.notes == (('not modelled: "stack": no task is made of it.',) if prompt.startswith("Stack") else ())
 
 
 def test_a_known_stack_so_that_one_is_on_top_is_no_task_of_other_bricks():

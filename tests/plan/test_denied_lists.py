@@ -22,11 +22,9 @@ def planner() -> GrammarPlanner:
         ("A crate lacking a hammer, a saw or a wrench.", ["crate"]),
         ("A desk devoid of books and pens.", ["desk"]),
         ("The shelf is free of vases, clocks and candles.", ["shelf"]),
-        ("The crate lacks a hammer, a saw and a wrench.", ["crate"]),
         ("A bench minus its cushions.", ["bench"]),
         ("Without a spoon, a fork and a napkin, a bowl is on the table.", ["bowl", "table"]),
         ("A mug without its saucer and spoon is on a tray.", ["mug", "tray"]),
-        ("A tray that lacks a cup and a plate.", ["tray"]),
         ("A tray without a cup, a bowl and a jar is on the desk.", ["desk", "tray"]),
     ],
 )

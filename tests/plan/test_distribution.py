@@ -147,7 +147,6 @@ def test_two_are_moved_where_each_is_told_by_its_colour(planner):
         ("In a jar there are two keys, and in another, three coins.", [{"key": 2}, {"coin": 3}], 2),
         ("In a jar is a key, in a second jar a coin.", [{"key": 1}, {"coin": 1}], 2),
         ("On the left plate is a bun and on the right one a lime.", [{"bun": 1}, {"lime": 1}], 2),
-        ("There are four mugs on a shelf. Every mug but one holds a pen.", [{"pen": 1}] * 3, 4),
         ("There are three mugs on a shelf. Two of the three mugs hold a pen.", [{"pen": 1}] * 2, 3),
     ],
 )  # fmt: skip
@@ -158,12 +157,6 @@ def test_the_rest_are_those_that_were_counted(planner, prompt, held, number):
     carried = carries(plan)
     assert len(owners) == number
     assert [carried[owner] for owner in owners if owner in carried] == [Counter(had) for had in held]
-    assert flagged(plan) == []
-
-
-def test_what_another_is_told_by_is_its_own(planner):
-    plan = planner.plan("In a bowl is an egg, and in another, which is smaller, a lime.")
-    assert {str(rel) for rel in plan.relations} == {"egg in bowl", "lime in smaller bowl"}
     assert flagged(plan) == []
 
 

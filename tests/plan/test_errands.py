@@ -53,7 +53,6 @@ def test_what_is_said_once_is_done_for_each(prompt: str, tasks: list[str]):
 @pytest.mark.parametrize(
     "prompt",
     [
-        "Empty the mug of its pens by moving them to the basket.",
         "Move the pens one by one from the mug to the basket.",
     ],
 )

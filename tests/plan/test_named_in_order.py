@@ -192,8 +192,6 @@ def test_each_of_what_is_at_both_ends_has_its_own(prompt: str, counts: dict[str,
     [
         ("There isn't any fork, but a spoon and a knife are lying on the napkin.", ["knife", "napkin", "spoon"], ""),
         ("A plate is on the table; there isn't a fork.", ["plate", "table"], ""),
-        ("One of the two mugs is on a coaster, the other isn't.", ["coaster", "mug", "mug"], "the other isn't"),
-        ("There are two cups, one is red and the other is not.", ["cup", "cup"], "the other is not"),
         ("Neither the bowl nor the jar has anything in it; the cup contains a spoon.", ["bowl", "cup", "jar", "spoon"],
          "Neither the bowl nor the jar has anything in it"),
         ("Neither the cup nor the plate is on the tray.", ["cup", "plate", "tray"],

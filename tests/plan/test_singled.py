@@ -66,12 +66,6 @@ def test_each_speaks_of_all_that_are_listed():
     assert len(related(plan, "on")) == 3
 
 
-def test_as_many_for_each_guest():
-    plan = read("Lay the table for three: a bowl, a knife and a cup each.")
-    assert [[obj.noun for obj in plan.objects].count(noun) for noun in ("bowl", "knife", "cup")] == [3, 3, 3]
-    assert {parent for _, parent in related(plan, "on")} == {"table"}
-
-
 def test_colours_that_alternate():
     for prompt in (
         "A row of four jars that alternate between red and green on a shelf.",

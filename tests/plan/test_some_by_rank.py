@@ -32,7 +32,6 @@ def doubts(plan: ScenePlan) -> list[str]:
         ("Four jars on a bench. One holds a fig, another two hold a key and the last is empty.", [1, 1, 1, 0]),
         ("Four jars on a bench: one holds a fig, two others hold a key", [1, 1, 1, 0]),
         ("Four jars on a bench: one holds a fig, the other two hold a key", [1, 1, 1, 0]),
-        ("Four jars on a bench. The first contains figs.", [3, 0, 0, 0]),
         ("There are four jars. Keys are in the last two jars.", [0, 0, 2, 2]),
     ],
 )
@@ -66,8 +65,6 @@ def test_some_of_four_are_described(prompt: str, colours: list[str]):
         ("Five pencils: two are in a jar, another two in a cup, the last on a book.",
          {"pencil 1 in jar", "pencil 2 in jar", "pencil 3 in cup", "pencil 4 in cup", "pencil 5 on book"}),
         ("A pencil in a jar and another two in a cup", {"pencil 1 in jar", "pencil 2 in cup", "pencil 3 in cup"}),
-        ("A cup holds one pencil, another two pencils and the third a pen.",
-         {"pencil 1 in cup 1", "pencil 2 in cup 2", "pencil 3 in cup 2", "pen in cup 3"}),
     ],
 )  # fmt: skip
 def test_another_two_are_of_those_that_were_counted(prompt: str, relations: set[str]):

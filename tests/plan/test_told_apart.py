@@ -3,7 +3,7 @@
 import pytest
 
 from pat3d.plan.grammar.planner import GrammarPlanner
-from tests.plan.vocabulary import chain, steps
+from tests.plan.vocabulary import chain
 
 
 def _plan(text):
@@ -147,20 +147,6 @@ def test_what_is_asked_is_read_without_what_no_scene_has(text, task, said):
     plan = _plan(text)
     assert plan.task == task
     assert any(said in note for note in plan.notes)
-
-
-@pytest.mark.parametrize(
-    ("text", "tasks"),
-    [
-        ("Grab the red cup as the other arm grabs the blue cup.", ["pick:red cup", "pick:blue cup"]),
-        ("Pick up the fork while the left arm lifts the plate.", ["pick:fork", "pick:plate"]),
-    ],
-)
-def test_what_two_arms_do_is_named(text, tasks):
-    plan = _plan(text)
-    assert (plan.task, steps(plan)) == (None, tasks)
-    assert any("a task does not say which arm acts" in note for note in plan.notes)
-    assert not _relations(plan)
 
 
 @pytest.mark.parametrize(

@@ -64,12 +64,6 @@ def test_parallel_rows_stay_rows(planner: GrammarPlanner):
     assert {one.kind for one in plan.arrangements} == {"row"}
 
 
-def test_what_jumps_off_a_thing_is_beside_it(planner: GrammarPlanner):
-    plan = planner.plan("The cat jumps off of the sofa.")
-    assert "cat next_to sofa" in map(str, plan.relations)
-    assert 'not modelled: "jumps"' in plan.notes
-
-
 def test_appliances_are_usual_ones_and_noted(planner: GrammarPlanner):
     plan = planner.plan("Three appliances on a counter.")
     assert sorted(obj.noun for obj in plan.objects) == ["blender", "counter", "kettle", "toaster"]

@@ -7,7 +7,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from pat3d.plan.grammar.rewriting.counted_places import from_one_side
-from pat3d.plan.grammar.rewriting.even_shares import counted_in_each
+from pat3d.plan.grammar.rewriting.even_shares import counted_in_each, shared
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.rewriting.outnumbered import outnumbering
 from pat3d.plan.grammar.rewriting.stacked_high import stacked_high
@@ -37,7 +37,7 @@ _SURROUNDING = frozenset({
 def counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with every number before its noun."""
     whole = _some_of(_one_of_two(_any_of(_rounded(_of_whole(tokens), nouns)), nouns))
-    return _of_each(_equal(_multiples(_on_sides(whole), nouns), nouns), nouns)
+    return _of_each(_equal(_multiples(shared(_on_sides(whole), nouns), nouns), nouns), nouns)
 
 
 def worked_out(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 Told = tuple[list[Token], list[tuple[Token, Token]]]
@@ -37,12 +38,34 @@ _LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | le
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_lacking, _condition, _cleft, _set_off, _none_behind, _nothing, _none_of, _useless, _all_listed):
+    for told in (_nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
+                 _among, _useless, _all_listed):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
             rest, more = without_denials(kept, nouns)
             return rest, [*denied, *more]
     return list(tokens), []
+
+
+def _nor(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "neither the bowl nor the jar has anything in it" as "there are the bowl and the jar"."""
+    nor = words.index("nor") if words[0] == "neither" and "nor" in words else 0
+    verb = next((n for n in range(nor + 1, len(words)) if words[n] in FINITE), 0) if nor else 0
+    if not verb or any(token.mark or link_at(tokens, n) for n, token in enumerate(tokens[:verb])):
+        return None
+    spans = [(1, nor), (nor + 1, verb)]
+    end = next(n for n in range(verb, len(words)) if tokens[n].mark)
+    # "Neither a fork nor a spoon is on the plate" tells of a plate alone.
+    known = all(words[start] in lexicon.DEFINITE | lexicon.POSSESSIVES for start, _ in spans)
+    if not known or not all(nouns.longest(words[start:stop]) for start, stop in spans) or tokens[end].text != ".":
+        return None
+    if (size := link_at(tokens, verb + 1)) and nouns.longest(words[verb + 1 + size : end]):
+        # "Neither the cup nor the plate is on the tray": the tray is there too.
+        spans.append((verb + 1 + size, end))
+    joints = [replace(tokens[nor], text="and") for _ in spans]
+    there = [replace(tokens[0], text=word) for word in ("there", "are")]
+    each = [token for (start, stop), joint in zip(spans, joints, strict=True) for token in (joint, *tokens[start:stop])]
+    return [*there, *each[1:], tokens[end]], [(tokens[0], tokens[end - 1])]
 
 
 def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -84,6 +107,48 @@ def _cleft(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     return [*tokens[2 : inside[0]], *tokens[that + 1 :]], [(tokens[inside[0] + 1], tokens[that - 2])]
 
 
+def _not_but(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "not a mug but a glass stands", "is not on the tray but under it", "in neither the box nor the bag but"."""
+    for at, word in enumerate(words[:-2]):
+        neither = word == "neither" or (word == "not" and words[at + 1] != "only")
+        if not neither:
+            continue
+        stop = next(n for n in range(at, len(words)) if tokens[n].mark and words[n] != ",")
+        but = next((n for n in range(at + 2, stop - 1) if words[n] == "but"), 0)
+        if not but or set(words[at:but]) & FINITE or words[but + 1] == "not":
+            continue
+        # "in neither the box nor the bag but under the table": the relation goes with it.
+        start = at - 1 if link_at(tokens, but + 1) and at and link_at(tokens, at - 1) == 1 else at
+        if "two" in words[but:stop] or {"it", "them"} & set(words[but:stop]):
+            named = [n for n in range(start, but) if nouns.match([words[n]])]
+            if len(named) != 1 or "it" not in words[but:stop]:
+                return None
+            # "not on the tray but next to it": next to the tray.
+            it = words.index("it", but)
+            owner = [replace(tokens[named[0] - 1], text="the"), tokens[named[0]]]
+            return [*tokens[:start], *tokens[but + 1 : it], *owner, *tokens[it + 1 :]], [
+                (tokens[start], tokens[but - 1])
+            ]
+        end = but - (words[but - 1] == ",")
+        return [*tokens[:start], *tokens[but + 1 :]], [(tokens[start], tokens[end - 1])]
+    return None
+
+
+def _rather(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a spoon rather than a fork lies on the plate", and "instead of a vase, ...", without the other thing."""
+    for at in range(len(words) - 3):
+        if words[at : at + 2] not in (["rather", "than"], ["instead", "of"]):
+            continue
+        if words[at + 2] not in lexicon.DETERMINERS:
+            continue
+        ends = (n for n in range(at + 3, len(words)) if tokens[n].mark or words[n] in FINITE or link_at(tokens, n))
+        end = next(ends, 0)
+        if end and not set(words[at + 3 : end]) & lexicon.DETERMINERS:
+            after = end + (words[end] == "," and not at)
+            return [*tokens[:at], *tokens[after:]], [(tokens[at], tokens[end - 1])]
+    return None
+
+
 def _set_off(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "the green cup, not the red one, is", "a bag, but not its strap," and "touches it but not the other"."""
     for at in range(1, len(words) - 2):
@@ -123,6 +188,8 @@ def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     """Read "nothing is on the plate" as "there is the plate", and "nobody is there, only a cup" as "a cup"."""
     if words[0] not in _NOTHING:
         return None
+    if (found := _nothing_but(tokens, words)) is not None:
+        return found, []
     if words[1] == "else" or any(tuple(words[1 : 1 + len(said)]) == said for said in _BUT):
         return None
     end = next(n for n in range(len(words)) if tokens[n].mark)
@@ -135,6 +202,25 @@ def _nothing(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
         return None
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="is")]
     return [*there, *tokens[the:]], [(tokens[0], tokens[end - 1])]
+
+
+def _nothing_but(tokens: Sequence[Token], words: list[str]) -> list[Token] | None:
+    """Read "nothing remained on the shelf but a cup and a can" as "on the shelf are a cup and a can"."""
+    link = next((n for n in range(1, len(words) - 3) if link_at(tokens, n)), 0)
+    but, size = next(
+        ((n, len(said)) for n in range(link + 2, len(words) - 2) for said in _BUT
+         if tuple(words[n : n + len(said)]) == said and link), (0, 0))  # fmt: skip
+    the = but + size
+    place = tokens[link : but - (words[but - 1] == ",")]
+    counted = words[the] in _LEADS or words[the].isdecimal()
+    if not but or not counted or any(token.mark for token in (*tokens[:link], *place)):
+        return None
+    verb = next((n for n in range(the, len(words)) if words[n] in FINITE), 0)
+    if verb and not lexicon.RELATIVES & {*words[the:verb]}:
+        # "Nothing is on the plate but the cup holds a pen."
+        return None
+    several = numeral(words[the]) > 1 or bool({",", "and"} & {*words[the:]})
+    return [*place, replace(tokens[but], text="are" if several else "is"), *tokens[the:]]
 
 
 def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
@@ -153,6 +239,15 @@ def _none_of(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | 
     there = [replace(tokens[0], text="there"), replace(tokens[0], text="are"), *number]
     subject = tokens[start + (words[start] == "the" and bool(set(named) & lexicon.NUMBERS.keys())) : verb]
     return [*there, *subject, *tokens[end:]], [(tokens[0], tokens[end - 1])]
+
+
+def _among(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "a shelf holding, among other things, a clock" without the other things."""
+    for at in range(1, len(words) - 3):
+        if words[at : at + 3] in (["among", "other", "things"], ["amongst", "other", "things"]):
+            start, end = at - (words[at - 1] == ","), at + 3 + (words[at + 3] == ",")
+            return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[at + 2])]
+    return None
 
 
 def _useless(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -1,4 +1,4 @@
-"""What several have in all and each of them has a share of: "six apples, two in each of three bowls"."""
+"""What several have evenly between them, as how many each has: "six apples divided equally between two bowls"."""
 
 from __future__ import annotations
 
@@ -10,6 +10,34 @@ from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import counted_before, number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
+
+_DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
+_EVENLY = frozenset({"equally", "evenly"})
+
+
+def shared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "six apples divided equally between two bowls" as "three apples in each of two bowls"."""
+    words = [token.text for token in tokens]
+    for at in range(2, len(words) - 3):
+        if words[at] not in _DIVIDED:
+            continue
+        first = at - (words[at - 1] in _EVENLY)
+        between = at + 1 + (words[at + 1] in _EVENLY)
+        evenly = between > at + 1 or first < at
+        among = words[between : between + 1] in (["between"], ["among"], ["over"], ["across"])
+        number = between + 1 + (words[between + 1] == "the")
+        holders = number_of(words[number]) if number < len(words) else 0
+        start = next((n for n in range(first - 1, -1, -1) if number_of(words[n])), None)
+        if not (evenly and among and holders and start is not None) or number_of(words[start]) % holders:
+            continue
+        name = next((n for n in (3, 2, 1) if nouns.match(words[start + 1 : start + 1 + n])), 0)
+        if not name:
+            continue
+        share = number_of(words[start]) // holders
+        told = [replace(tokens[between], text=text) for text in ("in", "each", "of")]
+        amount = replace(tokens[start], text="one" if share == 1 else str(share))
+        return [*tokens[:start], amount, *tokens[start + 1 : start + 1 + name], *told, *tokens[number:]]
+    return list(tokens)
 
 
 def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.chunking.failures import UnreadError
 from pat3d.plan.grammar.rewriting.denials import Told
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -22,6 +23,7 @@ _CHOICES = frozenset({"either", "whichever", "if", "unless", "whether"})
 _ALTERNATE = frozenset({"second", "third", "fourth", "fifth", "sixth", "2nd", "3rd"})
 """Ordinals after "every"."""
 _FRACTIONS = frozenset({"half", "halves", "third", "thirds", "quarter", "quarters", "most", "majority"})
+_POSTURES = frozenset({"standing", "lying", "sitting", "resting"})
 _EXCEPTIONS = frozenset({("all", "but"), ("everything", "but"), ("other", "than"), ("apart", "from")})
 
 
@@ -105,4 +107,24 @@ def refuse_negations(tokens: Sequence[Token]) -> None:
         if token.text in _FRACTIONS and plural and not tokens[at + 1].mark:
             raise PromptError(
                 f'"{token.text}" (word {token.number}): say how many in numbers: "four of the eight blocks are red".'
+            )
+
+
+def refuse_inserted(text: str, tokens: Sequence[Token]) -> None:
+    """Raises: PromptError: "with two eggs and, next to it, a mill" leaves open what "it" is, and what is in what."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        if words[at] in _POSTURES and words[at + 1] == "," and words[at + 2] in ("with", "together", "along"):
+            raise PromptError(
+                f'"{words[at]}, {words[at + 2]}" (word {tokens[at].number}): what is inserted may be said of several '
+                'things. Say it in a sentence of its own: "The lamp stands on the table."'
+            )
+        size = link_at(tokens, at + 2) if words[at : at + 2] == ["and", ","] else 0
+        end = at + 2 + size
+        inserted = size and words[end] in ("it", "them") and words[end + 1] == ","
+        if inserted and set(words[:at]) & lexicon.HAVING:
+            said = text[tokens[at + 2].start : tokens[end].end]
+            raise PromptError(
+                f'"{said}" (word {tokens[at + 2].number}) is inserted where it may be said of several things. Say it '
+                'in a sentence of its own: "Next to the pan is a pepper mill."'
             )

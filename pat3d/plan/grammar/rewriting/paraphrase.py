@@ -28,7 +28,7 @@ from pat3d.plan.grammar.rewriting.gapping import ungapped
 from pat3d.plan.grammar.rewriting.in_colours import in_colours
 from pat3d.plan.grammar.rewriting.joined_ranks import with_own_nouns
 from pat3d.plan.grammar.rewriting.levels import at_levels
-from pat3d.plan.grammar.rewriting.open_questions import refuse_negations
+from pat3d.plan.grammar.rewriting.open_questions import refuse_inserted, refuse_negations
 from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
@@ -89,6 +89,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
     tokens = _beside_the_first(tokens, nouns)
+    refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = _owned(tokens, nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))

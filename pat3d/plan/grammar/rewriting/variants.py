@@ -101,6 +101,9 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
+_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
+_IN_TURN = 12
+"""Things in a row that take turns, at most."""
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -311,6 +314,3 @@ def _one_adjective(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             made.append(tokens[at])
             at += 1
     return made
-_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
-_IN_TURN = 12
-"""Things in a row that take turns, at most."""
