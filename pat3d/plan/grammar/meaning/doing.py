@@ -292,10 +292,10 @@ class Doing(Placing):
     def _out_of_opened(self, children: list[Item], goal: list[Item]) -> None:
         """Put `children`, which are taken to `goal`, in what is opened before: "open the box and remove the ring"."""
         steps = [step for step in self._world.steps if SHUTTING & {*step.said.lower().split()[:1]}]
-        opened = steps[-1].items if steps and steps[-1].said.lower().startswith("open ") else ()
+        opened = list(steps[-1].items) if steps and steps[-1].said.lower().startswith("open ") else []
         taken = self._clause.verb in _TAKING_OUT and children and len(opened) == 1 and opened[0] not in goal
         if taken and self._may_hold(opened[0], children):
-            self._relating.relate(children, Link(kind="in"), list(opened))
+            self._relating.relate(children, Link(kind="in"), opened)
 
     def _may_hold(self, holder: Item, items: Sequence[Item]) -> bool:
         """Whether `holder` is of what things are in, and `items`, which were not told of before, are nowhere yet."""
