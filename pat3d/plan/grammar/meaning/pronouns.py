@@ -206,10 +206,10 @@ class Pronouns:
         below = self._world.support(told[0]) if told and not (child or plural) else None
         links = [piece.relation for piece in self._chunks[: at - 1] if piece.kind == "rel"]
         within = bool(links) and links[-1].kind == "in" and links[-1].manner == "place"
-        if below is not None and within and link is not None and link.kind in LATERAL_KINDS:
+        figure = bool(other) and self._world.is_a(other[0], lexicon.FIGURES)
+        if below is not None and within and figure and link is not None and link.kind in LATERAL_KINDS:
             # "A doll sits in a cart and a bear stands behind it": behind the cart.
-            figure = bool(other) and self._world.is_a(other[0], lexicon.FIGURES)
-            candidates.append((-1.5 if figure else -0.15, [below]))
+            candidates.append((-1.5, [below]))
         if below is not None and link is not None and link.kind in SUPPORT_KINDS and self._is_also(at):
             # "A cube is on a bench. A bottle is on it, too."
             candidates.append((-0.8, [below]))
