@@ -22,7 +22,6 @@ PLANNER = GrammarPlanner()
         ("The cups outnumber the plates.", '"outnumber"'),
         ("More than two cups are on a table.", '"more"'),
         ("More pears in the bowl than on the table.", '"than"'),
-        ("A row of jars, five in total, on a tray.", '"five"'),
         ("Four lemons are in two bowls, two in each.", '"two in each"'),
         ("A jar containing between two and three plums.", '"two"'),
         ("Table for four; each setting has a plate and a cup.", '"for four"'),

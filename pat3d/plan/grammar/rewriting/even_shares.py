@@ -14,6 +14,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _DIVIDED = frozenset({"split", "divided", "distributed", "shared", "spread"})
 _EVENLY = frozenset({"equally", "evenly"})
+_IN_ALL = (("in", "total"), ("in", "all"), ("altogether",), ("overall",), ("in", "each"))
+_GROUPS = frozenset({"groups", "clusters"})
 _SIDES = re.compile(
     r" , (\w+) (?:on|along|at) (?:each|either|both) (?:long |longer )?sides?(?: of (?:the )?\w+)?(?: ,)? and (\w+)"
     r" (?:on|at) (?:each|either|both) (?:short |shorter )?(?:end|side)s?(?: of (?:the )?\w+)?(?= [,.;])"
@@ -50,6 +52,7 @@ def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     Where the shares do not make up the whole they are left as they are: the audit compares them with the plan.
     """
+    tokens = _counted_behind(tokens, nouns)
     words = [token.text for token in tokens]
     for each in range(4, len(words) - 2):
         share = each - next((n for n in (3, 2, 1) if link_at(tokens, each - n) == n), each) - 1
@@ -70,6 +73,35 @@ def counted_in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             return [*tokens[:start], replace(tokens[start], text=words[share]), *tokens[start + 1 : end],
                     *tokens[behind:]]  # fmt: skip
     return list(tokens)
+
+
+def _counted_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a row of jars, five in total" as "a row of five jars", where nothing else is uncounted.
+
+    So is "two groups of jars, three in each group" "two groups of three jars".
+    """
+    made = list(tokens)
+    for at in range(len(tokens) - 3, 1, -1):
+        words = [token.text for token in made]
+        said = at + 1 + (nouns.match([words[at + 1]]) is not None)
+        size = next((len(each) for each in _IN_ALL if tuple(words[said : said + len(each)]) == each), 0)
+        if words[at - 1] != "," or not number_of(words[at]) or not size:
+            continue
+        start = next((n + 1 for n in range(at - 1, -1, -1) if words[n] == "."), 0)
+        share = words[said + 1] == "each"
+        end = said + size + (share and words[said + 2] in ("group", "cluster"))
+        # "Two books on a shelf with vases, five in total" may be of either.
+        named = [n for n in range(start, at - 1) if (found := nouns.match([words[n]])) is not None and found.plural]
+        if len(named) != 1 or not made[end].mark or (share and not _GROUPS & {*words[start : named[0]]}):
+            continue
+        first = named[0]
+        while first > start and is_modifier(words[first - 1]):
+            first -= 1
+        if first > start and (number_of(words[first - 1]) or words[first - 1] in ("the", "and")):
+            continue
+        after = end + (words[end] == ",")
+        made = [*made[:first], made[at], *made[first : at - 1], *made[after:]]
+    return made
 
 
 def without_shares(tokens: Sequence[Token]) -> list[Token]:
