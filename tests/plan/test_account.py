@@ -62,7 +62,7 @@ def test_a_number_for_each_of_several_is_as_many_times_it():
         ("Move the vase to where the clock is.", "where the clock is"),
         ("Three eggs in a bowl and one beside it.", "further"),
         ("A speaker is connected to a laptop on the desk.", "to"),
-        ("Lift the lid of the pot.", "the lid of the pot"),
+        ("Lift the lid of the laptop.", "the lid of the laptop"),
         ("Two lemons were left on the chopping board, right next to the knife.", "is next to"),
     ],
 )

@@ -247,6 +247,11 @@ class Doing(Placing):
             self._clause = replace(self._clause, manner="other")
         self._from_there(children, parents)
         self._out_of_opened(children, parents)
+        taken = self._world.steps[-1] if self._world.steps else None
+        if taken is not None and taken.manner == "pick" and [*taken.items] == children and self._opened() == parents:
+            # "Open the box, pick up the ring and put it in the box": it was not in there.
+            for item in children:
+                self._world.supports.pop(item, None)
         for item, goal in by_colour(self._world, self._clause.said, children, parents):
             self._step([item], link, [goal])
             children = []
@@ -316,11 +321,15 @@ class Doing(Placing):
 
     def _out_of_opened(self, children: list[Item], goal: list[Item]) -> None:
         """Put `children`, which are taken to `goal`, in what is opened before: "open the box and remove the ring"."""
-        steps = [step for step in self._world.steps if SHUTTING & {*step.said.lower().split()[:1]}]
-        opened = list(steps[-1].items) if steps and steps[-1].said.lower().startswith("open ") else []
+        opened = self._opened()
         taken = self._clause.verb in _TAKING_OUT and children and len(opened) == 1 and opened[0] not in goal
         if taken and self._may_hold(opened[0], children):
             self._relating.relate(children, Link(kind="in"), opened)
+
+    def _opened(self) -> list[Item]:
+        """What was opened last and not shut again."""
+        steps = [step for step in self._world.steps if SHUTTING & {*step.said.lower().split()[:1]}]
+        return list(steps[-1].items) if steps and steps[-1].said.lower().startswith("open ") else []
 
     def _may_hold(self, holder: Item, items: Sequence[Item]) -> bool:
         """Whether `holder` is of what things are in, and `items`, which were not told of before, are nowhere yet."""

@@ -76,7 +76,7 @@ def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[li
     made: list[list[Token]] = []
     for sentence in from_side(whole, nouns):
         plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_got(_lowered(_emptied(_politely(plain)))))))
+        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_politely(plain))))))))
         piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
         for each in _from_stack(plain, piled=piled):
             made += _all_but(each)
@@ -160,6 +160,18 @@ def _lowered(sentence: list[Token]) -> list[Token]:
             if words[next(ends)] in ("in", "into", "on", "onto"):
                 return [*sentence[:at], replace(sentence[at], text="put"), *sentence[at + 1 :]]
     return sentence
+
+
+def _cleared(sentence: list[Token]) -> list[Token]:
+    """Read "clear the table by putting the cups on the tray" as "put the cups from the table on the tray"."""
+    words = [token.text for token in sentence]
+    by = words.index("by") if words[0] in ("clear", "empty") and "by" in words[2:6] else 0
+    verb = base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None
+    to = next((n for n in range(by + 3, len(words) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
+    if verb not in _TAKING or words[1] not in _LEADS or not to or sentence[to].mark:
+        return sentence
+    put, source = replace(sentence[0], text=verb), replace(sentence[0], text="from")
+    return [put, *sentence[by + 2 : to], source, *sentence[1:by], *sentence[to:]]
 
 
 def _got(sentence: list[Token]) -> list[Token]:

@@ -216,6 +216,10 @@ def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
 def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "the lemon should go into the bowl" as "put the lemon into the bowl"."""
     words = [token.text for token in tokens]
+    belongs = next((at for at in range(2, len(words) - 3) if words[at] in ("belongs", "belong")), 0)
+    if belongs and words[0] in ("that", "this", "these", "those") and link_at(tokens, belongs + 1):
+        # "That cup belongs on the shelf."
+        return [replace(tokens[0], text="put"), *tokens[:belongs], *tokens[belongs + 1 :]]
     for at in range(1, len(words) - 3):
         goes = words[at] == "go" or (words[at] == "goes" and words[at + 1] in ("into", "onto"))
         if goes and words[0] in ("the", "all", "both") and words[at + 1] in _PLACING and not tokens[at - 1].mark:

@@ -48,7 +48,7 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    return _the_rest(_once_again(_added(_carried(put_back(without_phrases(made, _ONE_BY_ONE)))), nouns))
+    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
 
 
 def _filled_from(tokens: list[Token]) -> list[Token]:
@@ -132,6 +132,21 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         kept = [token for n, token in enumerate(made) if n not in drop]
         return _carried(kept) if any(_commands(kept, n) for n in range(at + 1, len(kept))) else kept
     return made
+
+
+def _emptied(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "empty the mug of its pens by moving them to the box" as "move the pens from ..."."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 8):
+        if words[at] not in _UNLOADING or not _commands(tokens, at):
+            continue
+        of = next((n for n in range(at + 2, len(words)) if tokens[n].mark or words[n] == "of"), at)
+        by = next((n for n in range(of, len(words)) if tokens[n].mark or words[n] == "by"), of)
+        if (words[of], words[by]) == ("of", "by") and words[by + 2] == "them" and link_at(tokens, by + 3):
+            move, source = replace(tokens[at], text="move"), replace(tokens[of], text="from")
+            the = replace(tokens[of + 1], text="the")
+            return [*tokens[:at], move, the, *tokens[of + 2 : by], source, *tokens[at + 1 : of], *tokens[by + 3 :]]
+    return list(tokens)
 
 
 def _leads(tokens: Sequence[Token], at: int) -> bool:

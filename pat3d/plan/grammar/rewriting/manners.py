@@ -34,7 +34,7 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random)",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
     r"\S+ than (?:either|both|all)",
-    rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})",
+    rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",
     rf"in(?:to)? {_NUMBER} (?:groups|clusters)(?: of {_NUMBER})?(?: each)?",
     # "press the button twice", "push the box until it reaches the edge", "a sofa facing south-west"
     rf"(?<!than )(?<!and )(?<!as )(?<!or )(?:twice|thrice|(?:{_NUMBER}|{'|'.join(lexicon.VAGUE)}) times)(?! as )",

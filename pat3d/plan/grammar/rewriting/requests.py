@@ -58,9 +58,9 @@ def requested(sentence: list[Token], alone: bool, nouns: Nouns) -> list[Token]:
     other = (token.mark or token.text in ("to", "and", "or") for n, token in enumerate(named) if n not in linked)
     if not wish or len(named) < 2 or any(other):
         return sentence
-    links = {named[n].text for n in linked if n < len(named)} - _WITHIN
+    links = {named[n].text for n in linked if n < len(named)}
     definite = words[start] in _LEADS and words[end - 1] not in SWITCHED
-    if definite and (wish in _GIVE or not links or lexicon.RELATIVES & {*words[start + 1 : end]}):
+    if definite and (wish in _GIVE or links <= _WITHIN or lexicon.RELATIVES & {*words[start + 1 : end]}):
         return _fetch(sentence, sentence[start:-1] if words[end : end + 2] == [",", "not"] else named)
     # "Give me a spoon"; a table is a scene.
     thing = next((found for n in (3, 2, 1) if (found := nouns.match(words[max(end - n, start) : end]))), None)
