@@ -277,9 +277,6 @@ class Contrast(Pronouns):
         what was named are left; nothing where what was named is told from no others.
         """
         moved = [head for one, _ in self.related for head in sorted(one) if head < at and self.known.get(head)]
-        by = {head for one, other in self.related if at in other for head in one}
-        # "Put the fork in the other": in no other fork; "put one brick on the other".
-        moved = [head for head in moved if head not in by or self._chunks[head].words[:1] == ("one",)]
         head = max((head for head in moved if self._chunks[head].named.kind == "object"), default=None)
         items = self.known[head] if head is not None else self._world.subject
         if head is None and (left := self._but_one_ahead(at, phrase, items)):
@@ -293,6 +290,10 @@ class Contrast(Pronouns):
         alike = [item for item in self._world.items() if item.group.noun == group.noun and item not in gone]
         if alike:
             return alike[: phrase.count or (None if several else 1)]
+        by = {each for one, other in self.related if at in other for each in one}
+        if head is not None and head in by and self._chunks[head].words[:1] != ("one",):
+            # "Put the fork in the other": in no other fork, but "put one brick on the other".
+            return None
         behind = self._chunks[head + 1].kind if head is not None and head + 1 < at else ""
         alone = len(group.items) == 1 and not several
         if not alone and not group.exact and group.modifiers == NO_MODIFIERS and behind not in ("which", "quality"):
