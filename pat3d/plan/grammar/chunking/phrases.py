@@ -368,9 +368,8 @@ class PhraseReader:
                 return replace(whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                substance=inner.head), after  # fmt: skip
             return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
-        holds = known is not None and any(
-            self._nouns.of_class(known[0].noun, table) for table in (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
-        )
+        tables = (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
+        holds = known is not None and any(self._nouns.of_class(known[0].noun, table) for table in tables)
         portion = any(word in lexicon.PORTIONS for word in singular)
         shape = any(word in lexicon.SHAPES for word in singular)
         if inner.kind in ("object", "unknown", "pieces") and (portion or shape):

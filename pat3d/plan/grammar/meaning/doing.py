@@ -103,9 +103,8 @@ class Doing(Placing):
     def _ends_on_something(self, facts: Sequence[tuple]) -> bool:
         """Whether what is moved is carried afterwards, so that there is a task whatever else is said of where."""
         links = [self._chunks[fact[1]].link for fact in facts if fact[0] == "goal"]
-        return all(
-            link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links
-        )
+        aims = [link is not None and link.kind in SUPPORT_KINDS and link.manner in ("place", "goal") for link in links]
+        return all(aims)
 
     def _form(self, at: int, heads: Sequence[int]) -> None:
         """Read "in a row", "stacked": of what is to be moved it says how it is to stand afterwards."""
@@ -351,11 +350,8 @@ class Doing(Placing):
             # "Clear the desk: put the cups on the tray": from the desk.
             self._world.emptied = children
             return
-        self._world.steps.append(
-            Step(
-                manner=manner, said=self._clause.said, part=part, items=tuple(children), link=link, goal=tuple(parents)
-            )
-        )
+        said, items, goal = self._clause.said, tuple(children), tuple(parents)
+        self._world.steps.append(Step(manner=manner, said=said, part=part, items=items, link=link, goal=goal))
 
     def _is_items(self, heads: Sequence[int]) -> bool:
         """Whether one of `heads` is "everything" or "the things"."""

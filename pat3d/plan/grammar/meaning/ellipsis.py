@@ -17,9 +17,8 @@ from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _SIDES = {"left": "left", "right": "right", "centre": "middle", "on top": "top"}
-_HARD = frozenset(
-    {"wood", "bamboo", "stone", "glass", "ceramic", "porcelain", "metal", "steel", "iron", "brass", "plastic"}
-)
+_HARD = frozenset({"wood", "bamboo", "stone", "glass", "ceramic", "porcelain", "metal", "steel", "iron", "brass",
+                   "plastic"})  # fmt: skip
 _SOFT = ("sofa", "armchair", "couch", "bed", "rug", "carpet", "plant", "potted plant", "tree", "bag", "handbag",
          "backpack", "rose", "flower", "tulip", "sunflower", "carrot", "banana")  # fmt: skip
 _CLOTH = ("towel", "napkin", "blanket", "rug", "pillow", "cushion", "hat", "scarf", "beanie", "glove", "sock", "shirt",
@@ -61,11 +60,8 @@ def _one_more(chunks: Sequence[Chunk], known: Collection[Phrase], nouns: Nouns) 
         if not named or (several and not _does_alike(chunks, at)) or not told or _listed(chunks[:at]):
             continue
         again = any(one.head == "another" for one in before)
-        if (
-            chunks[at - 1].text == ","
-            and not again
-            and follower.kind not in ("place", "verb", *(one.kind for one in chunks[1:2]))
-        ):
+        alike = follower.kind in ("place", "verb", *(one.kind for one in chunks[1:2]))
+        if chunks[at - 1].text == "," and not (again or alike):
             # "A bookshelf holds a book, one on the top shelf": that book.
             continue
         if chunks[at - 1].text == "," and follower.kind == "have" and not follower.relation.finite:

@@ -85,12 +85,8 @@ class Relating:
             if link.says == "in_corners" and len(children) == 1 and level:
                 own = children[0].group.items
                 children = multiply(world, children, _CORNERS) if len(own) == 1 else list(own)
-            where = (
-                link.says.replace("_", " ")
-                .replace("at edge", "at the edge of")
-                .replace("in corners", "in the corners of")
-                .replace("in corner", "in the corner of")
-            )
+            at, place = link.says.split("_")
+            where = f"{at} the {place} of"
             self.relate(children, Link(kind="on" if level else "next_to"), parents)
             world.arrange(
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"

@@ -36,20 +36,19 @@ VERBS: dict[str, Manner] = {
     **dict.fromkeys(("move", "bring", "transport", "transfer", "carry", "drop", "insert", "throw", "toss", "pack",
                      "store", "return", "deliver", "relocate", "hand", "pass", "organize", "organise", "push", "slide",
                      "drag", "add", "collect", "clean", "plate", "load", "deposit", "sweep", "nudge", "shove",
-                     "shift", "reposition", "stow", "stash", "dump", "cluster", "chuck",
-                     "lob", "fling", "hurl", "slip", "ease", "park", "stuff", "cram", "kick"), "move"),
+                     "shift", "reposition", "stow", "stash", "dump", "cluster", "chuck", "lob", "fling", "hurl", "slip",
+                     "ease", "park", "stuff", "cram", "kick"), "move"),
     "stack": "stack",
     **dict.fromkeys(("pick", "grasp", "grab", "lift", "raise", "take", "fetch", "get", "hold", "retrieve", "choose",
-                     "select", "remove", "gather", "identify", "find", "locate",
-                     "seize", "extract", "unhook"), "pick"),
+                     "select", "remove", "gather", "identify", "find", "locate", "seize", "extract",
+                     "unhook"), "pick"),
     **dict.fromkeys(("empty", "unload"), "unload"),
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
                      "pour", "fold", "unfold", "cut", "slice", "cook", "heat", "shake", "stir", "plug",
-                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "cross", "reach", "swap",
-                     "scoop", "touch",
-                     "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange",
-                     "release", "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
+                     "unplug", "unstack", "align", "assemble", "navigate", "walk", "cross", "reach", "swap", "scoop",
+                     "touch", "tidy", "use", "click", "give", "clear", "scrub", "trade", "exchange", "release",
+                     "unpack", "separate", "start", "compare", "randomize", "stamp", "go", "avoid",
                      "turning", "disassemble", "rinse", "scrub", "dry", "discard", "secure", "squeeze",
                      "peel", "untie", "mix", "twist", "screw", "unscrew", "tilt", "spin", "roll",
                      "inspect", "measure", "weigh", "check", "ignore", "recycle", "ensure", "ensuring", "dispose",
@@ -286,9 +285,8 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     actor = False
     while at < len(tokens) - 1:
         words = [token.text for token in tokens[at : at + 4]]
-        asking = next(
-            (each for each in sorted(_ASKING, key=len, reverse=True) if tuple(words[: len(each)]) == each), None
-        )
+        longest = sorted(_ASKING, key=len, reverse=True)
+        asking = next((each for each in longest if tuple(words[: len(each)]) == each), None)
         if asking and not (asking == ("go",) and base_of(words[1]) not in VERBS):
             at += len(asking)
         elif opening and words[0] == "to" and words[1] in VERBS and not at:
