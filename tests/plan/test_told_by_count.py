@@ -115,3 +115,11 @@ def test_all_but_two_of_three_is_one():
     ):
         plan = GrammarPlanner().plan(prompt)
         assert sorted(obj.colours for obj in plan.objects if obj.noun == "cup") == [(), (), ("red",)]
+
+
+def test_what_is_cleared_has_on_it_what_is_moved():
+    plan = GrammarPlanner().plan("Clear the desk by moving the two books to the shelf.")
+    assert {(rel.child, rel.parent) for rel in plan.relations} == {("book 1", "desk"), ("book 2", "desk")}
+    plan = GrammarPlanner().plan("Empty the box by placing the ball in the bin.")
+    assert str(plan.task) == "place:ball:bin"
+    assert ("ball", "in", "box") in {(rel.child, rel.kind, rel.parent) for rel in plan.relations}
