@@ -73,3 +73,29 @@ def test_the_audit_counts_what_is_compared(sentence: str, cups: int, noted: bool
     objects = tuple(PlannedObject(name=name, noun=noun, phrase=noun) for name, noun in names)
     plan = audited(ScenePlan(prompt=sentence, objects=objects), {"cup": "cup", "plate": "plate"}.get)
     assert any("counted otherwise" in note for note in plan.notes) == noted
+
+
+@pytest.mark.parametrize(
+    ("sentence", "count", "named"),
+    [
+        ("More than two cups are on a table.", 3, "More than"),
+        ("More than one cup is on a table.", 2, "More than"),
+        ("Fewer than four cups are on a table.", 3, "Fewer than"),
+        ("No more than four cups are on a table.", 4, "No more than"),
+    ],
+)
+def test_a_bound_of_a_number_is_kept_and_named(planner: GrammarPlanner, sentence: str, count: int, named: str):
+    plan = planner.plan(sentence)
+    assert sum(obj.noun == "cup" for obj in plan.objects) == count
+    assert f'not modelled: "{named}"' in plan.notes
+
+
+def test_an_equal_number_is_as_many(planner: GrammarPlanner):
+    plan = planner.plan("Four hats and an equal number of mugs.")
+    assert Counter(obj.noun for obj in plan.objects) == {"hat": 4, "mug": 4}
+
+
+def test_of_a_range_the_most_is_made_and_said(planner: GrammarPlanner):
+    plan = planner.plan("A jar containing between two and three plums.")
+    assert sum(obj.noun == "plum" for obj in plan.objects) == 3
+    assert any("3 assumed" in note for note in plan.notes)

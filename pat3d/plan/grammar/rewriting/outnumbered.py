@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from pat3d.plan.grammar.rewriting.numbers_compared import plainly_compared
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Span, Token, singulars
@@ -61,7 +62,7 @@ def outnumbering(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     How many of each is assumed so that the one kind outnumbers the other.
     """
-    made = list(tokens)
+    made = plainly_compared(tokens)
     for at in range(len(made) - 4, -1, -1):
         found = _comparison(made, at, nouns) if at < len(made) - 3 else None
         if found is not None:
