@@ -38,6 +38,9 @@ _TOPPINGS = (*lexicon.FRUIT, "strawberry", "blueberry", "raspberry", "blackberry
              "egg", "olive", "bell pepper", "onion", "candle", "sausage", "walnut", "almond", "cookie", "cabbage",
              "bacon", "steak", "carrot", "broccoli", "garlic")  # fmt: skip
 """What is on a cake, a pizza, a salad, that is topped with it."""
+_FOOD = (*lexicon.MAIN_DISHES, *lexicon.FRUIT, *TOPPED, "cookie", "croissant", "bagel", "egg", "potato", "cheese")
+_TABLEWARE = ("fork", "knife", "spoon", "chopsticks", "napkin")
+"""What lies beside food, not on it."""
 _SOFT = ("bed", "sofa", "armchair", "pillow", "floor cushion", "blanket")
 """Seats on which nobody leaves a cup."""
 LARGE = ("cardboard sheet", "suitcase", "dog", "cat", "plant", "guitar", "backpack", "umbrella", "traffic cone",
@@ -103,7 +106,7 @@ class Plausible:
             return 0.7
         if self.level(parent):
             return 0.0
-        if self.is_a(parent, lexicon.MAIN_DISHES) and self.is_a(child, lexicon.DISHES):
+        if self.is_a(parent, _FOOD) and (self.is_a(child, lexicon.DISHES, _TABLEWARE) or self.hollow(child)):
             return 1.5
         if self.is_a(child, lexicon.WORN) and self.is_a(parent, lexicon.FIGURES):
             return 0.2

@@ -42,6 +42,11 @@ class Contrast(Pronouns):
             return True
         if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
             return True
+        named = [(lexicon.SIZES.get(each.split()[0], 1.0), own) for each, own in
+                 ((group.said, theirs.scale), (phrase.said or phrase.head, ours.scale)) if " " in each]  # fmt: skip
+        if any((size - 1.0) * (own - 1.0) < 0.0 for size, own in named):
+            # "The large bowl" has a name of its own; "the small bowl" is another.
+            return True
         if compared_anew(phrase, [item for item in self._world.items() if item.group.noun == group.noun]):
             return True
         if phrase.definite and any(self._is_just_that(other, group, phrase) for other in self._world.groups):

@@ -217,7 +217,8 @@ class Pronouns:
         if below is not None and opened and link is not None and link.manner == "under":
             # "By a bench is a stool. On the stool lies a hat, under it a glove.": under the stool.
             candidates.append((0.1, [below]))
-        nearest = [self.known[key] for key in sorted(self.known, reverse=True) if key < at and self.known[key]]
+        named = [key for key in sorted(self.known, reverse=True) if not (pointing and self._is_pronoun(key))]
+        nearest = [self.known[key] for key in named if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         if plural and len(nearest) > 1 and len(nearest[0]) == 1:
             candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))

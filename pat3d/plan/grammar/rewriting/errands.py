@@ -16,6 +16,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -48,6 +49,7 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
+    made = _goals_alike(made, nouns)
     return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
 
 
@@ -217,6 +219,22 @@ def _further_goal(moved: str, link: str, goal: str, named: str, nouns: Nouns) ->
     gain = likely.carried(then, kind, below) - (likely.carried(thing, "in" if opens else "on", then) if thing else 0)
     large = likely.is_a(then, lexicon.LARGE_VESSELS, lexicon.FLOOR, tuple(lexicon.OPENED))
     return "" if gain < (0.2 if large else 0.8) else "in" if opens else "on"
+
+
+def _goals_alike(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "put two cups on the red tray and the rest on the blue one" as "... on the blue tray"."""
+    words = [token.text for token in tokens]
+    made = list(tokens)
+    for at in range(4, len(words)):
+        size = next((n for n in (1, 2) if link_at(tokens, at - 2 - n) == n), 0) if words[at] == "one" else 0
+        link = at - 2 - size
+        led = size and words[at - 2] in lexicon.DEFINITE and is_modifier(words[at - 1])
+        before = (n for n in range(link - 1, 0, -1) if words[n : n + size] == words[link : link + size])
+        first = next(before, 0) + size if led else 0
+        name = next((n for n in (first + 2, first + 3) if first > size and nouns.match(words[n : n + 1])), 0)
+        if name and words[first] in lexicon.DETERMINERS and all(map(is_modifier, words[first + 1 : name])):
+            made[at] = replace(made[at], text=words[name])
+    return made
 
 
 def _the_rest(tokens: Sequence[Token]) -> list[Token]:

@@ -33,7 +33,7 @@ _ARTICLES = frozenset({"a", "an", "some", "the"})
 
 def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the verb in every clause that leaves it out."""
-    tokens = _another_there(_set_apart(_same_landmark(tokens), nouns), nouns)
+    tokens = _another_there(_set_apart(_same_landmark(_apposed(tokens)), nouns), nouns)
     made: list[Token] = []
     verb: Token | None = None
     copula: Token | None = None
@@ -48,8 +48,17 @@ def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         at += 1
         if token.text not in _JOINTS:
             continue
+        if told := _of_the_kind(tokens, at, nouns):
+            made += [*tokens[at : at + told[0]], replace(tokens[at + told[0] - 1], text=told[1])]
+            at += told[0]
+            continue
         size = _subject(tokens, at, nouns) if verb is not None else 0
-        if size and verb is not None and _gap(tokens, at, size, nouns):
+        if size and verb is not None and (noun := _number_alone(tokens, at + size, nouns)) is not None:
+            subject, number = tokens[at : at + size], tokens[at + size]
+            made += [*subject, replace(subject[-1], text=_OF_ONE.get(verb.text, verb.text)), number]
+            made.append(replace(noun, start=number.start, end=number.end))
+            at += size + 1
+        elif size and verb is not None and _gap(tokens, at, size, nouns):
             one = tokens[at + size - 1].text not in ("others", "ones")
             said = _OF_ONE.get(verb.text, verb.text) if one else verb.text
             made += [*tokens[at : at + size], replace(tokens[at + size - 1], text=said)]
@@ -60,7 +69,7 @@ def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         elif told := _place(tokens, at, nouns):
             end, after = told
             there = [replace(tokens[end - 1], text=word) for word in ("there", "is")]
-            made += [*tokens[at:end], *there]
+            made += [*_described(tokens[at:end], tokens[:at], nouns), *there]
             at = after
     return made
 
@@ -110,6 +119,38 @@ def _another_there(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return list(tokens)
 
 
+def _of_the_kind(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, str] | None:
+    """The words of "the blue cups" at token `at`, and the verb of "the red cups are on one tray and the blue cups on".
+
+    What stands beside its like is told of its place, and is no second thing that the first ones are on.
+    """
+    words = [token.text for token in tokens]
+    verb = next((n for n, word in enumerate(words[:at]) if word in FINITE), 0)
+    ends = (n for n in range(at + 1, len(words)) if tokens[n].mark or link_at(tokens, n) or words[n] in FINITE)
+    link = next(ends, 0)
+    if words[at] != "the" or words[0] != "the" or verb < 2 or not link_at(tokens, link) or words[link] in FINITE:
+        return None
+    first, second = (nouns.match([words[n - 1]]) for n in (verb, link))
+    end = next(n for n in range(link, len(words)) if tokens[n].mark)
+    alike = first is not None and second is not None and (first.noun, first.plural) == (second.noun, second.plural)
+    if not alike or FINITE & {*words[link:end]} or not all(map(_describes, words[at + 1 : link - 1])):
+        return None
+    return (link - at, words[verb]) if link > at + 2 and words[link - 2] != words[verb - 2] else None
+
+
+def _apposed(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "another one, a blue one, on the shelf" as "a blue one on the shelf"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 4):
+        if words[at] != "," or words[at + 1] not in ("a", "an") or words[at + 3] != "one":
+            continue
+        start = at - 1 - (words[at - 1] == "one")
+        if start > 0 and words[start] == "another" and _describes(words[at + 2]):
+            end = at + 4 + (words[at + 4] == ",")
+            return [*tokens[:start], *tokens[at + 1 : at + 4], *tokens[end:]]
+    return list(tokens)
+
+
 def _same_landmark(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "the knife is right of the plate and the fork on the left" as "... on the left of the plate"."""
     words = [token.text for token in tokens]
@@ -137,6 +178,19 @@ def _same_landmark(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
+def _number_alone(tokens: Sequence[Token], at: int, nouns: Nouns) -> Token | None:
+    """What "two" at token `at` counts where the clause ends with it: the apples of "the first holds one apple"."""
+    number, after = tokens[at], tokens[min(at + 1, len(tokens) - 1)]
+    counts = number.text in lexicon.NUMBERS or number.text.isdecimal()
+    if not counts or not (after.mark or after.text in _JOINTS):
+        return None
+    verb = next((n for n in range(at - 1, 0, -1) if _has_object(tokens, n)), 0)
+    lead = tokens[verb + 1].text if verb else ""
+    counted = lead in _ARTICLES or lead in lexicon.NUMBERS or lead.isdecimal()
+    noun = next((n for n in range(verb + 2, min(verb + 5, at)) if not _describes(tokens[n].text)), at)
+    return tokens[noun] if counted and noun < at and nouns.match([tokens[noun].text]) else None
+
+
 def _quality(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
     """The words of the subject at token `at` behind which only a quality stands: "the second blue"; 0 for none."""
     size = _subject(tokens, at, nouns)
@@ -162,6 +216,15 @@ def _place(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, int] | 
         end = next((n for n in range(end + 2, len(tokens)) if tokens[n].mark), end)
     after = end + (tokens[end].text == ",")
     return (end, after) if end < len(tokens) - 1 and _gap(tokens, after, 0, nouns) else None
+
+
+def _described(place: Sequence[Token], first: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`place` with "in another, which is bigger" as "in a bigger bowl", where the sentence begins "in a bowl"."""
+    words = [token.text for token in place]
+    noun = next((token for token in first if nouns.match([token.text])), None)
+    if noun is None or words[-4:-1] not in ([",", "which", "is"], [",", "that", "is"]) or words[-5] != "another":
+        return list(place)
+    return [*place[:-5], replace(place[-5], text="a"), place[-1], replace(place[-1], text=noun.text)]
 
 
 def _has_object(tokens: Sequence[Token], at: int) -> bool:

@@ -64,7 +64,7 @@ def lid_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         the = tokens[start if owned else lid - 1]
         before = tokens[: start if owned else lid - 1]
-        taken = words[0] in TAKING and len(before) < _NEAR and words.count(words[end - 1]) == 1
+        taken = words[0] in TAKING and len(before) < _NEAR
         owner = [replace(tokens[lid], text="on"), *tokens[start:end]] if taken else []
         return lid_of([*before, replace(the, text="the"), tokens[lid], *owner, *tokens[max(lid + 1, end) :]], nouns)
     return list(tokens)
