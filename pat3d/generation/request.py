@@ -127,7 +127,7 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     """An asset for every planned object; equal objects of a set share one."""
     from pat3d.assets import catalogue, sources
     from pat3d.assets.variant import ON_A_HOOK, OVER_A_BAR, WITH_PEGS, Variant
-    from pat3d.generation.sizing import crossings, enlarged_trays, high_hooks
+    from pat3d.generation.sizing import crossings, enlarged_trays, fitting_lids, high_hooks
 
     together = built_together([obj.name for obj in plan.objects], plan.relations)
     planned = {obj.name: obj for obj in plan.objects}
@@ -183,6 +183,9 @@ def objects_of_plan(plan: ScenePlan, seed: int, progress: Progress) -> tuple[Unp
     for name, (taller, factor) in high_hooks(plan, assets, make).items():
         assets[name] = taller
         notes[name] = f'"{name}" is {factor:g} times its usual size, for what hangs on it to be off the ground.'
+    for name, (fitting, factor) in fitting_lids(plan, assets, make).items():
+        assets[name] = fitting
+        notes[name] = f'"{name}" is {factor:g} times its usual size, to close what it is on.'
     turned: dict[str, PostureKind] = {one.object: one.kind for one in plan.turned()}
     return tuple(
         UnplacedObject(

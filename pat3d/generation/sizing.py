@@ -2,7 +2,7 @@
 
 Trays as large as what they carry: nobody who says "a tray with a teapot and two cups" means a heap. And a spoon that is
 long enough for the bowl across which it lies, or a bowl small enough for it. And hooks as high as what hangs on them is
-long.
+long. And lids as wide as the rims that they are on.
 """
 
 from __future__ import annotations
@@ -40,6 +40,13 @@ GAP = 0.002
 
 TALLER = (1.25, 1.5, 1.75, 2.0, 2.5)
 """Sizes of what has hooks that are tried against the usual one, the smallest first."""
+
+_LAP = 0.004
+"""How far the edge of a lid reaches over the opening [m]; half of it is enough."""
+_DWARFED = 1.35
+"""Radius of a lid over that of the opening from which on it is made smaller."""
+_RIM = 5e-4
+"""Height within which the points of a rim are [m]."""
 
 LONGER, SMALLER = (1.0, 1.1, 1.2, 1.3), (1.0, 0.9, 0.8, 0.7, 0.6)
 """Sizes of what lies across something, and of that, that are tried against the usual ones, the nearest first."""
@@ -96,6 +103,35 @@ def high_hooks(
                 found[obj.name] = larger, factor
                 break
     return found
+
+
+def fitting_lids(
+    plan: ScenePlan, assets: Mapping[str, Asset], remake: Callable[[str, float], Asset]
+) -> dict[str, tuple[Asset, float]]:
+    """Lids of `plan`, with their factors, for those that would fall into the round vessels they are on, or dwarf them.
+
+    What the prompt gives a size stays as it is. Arguments as for `enlarged_trays`.
+    """
+    found: dict[str, tuple[Asset, float]] = {}
+    for obj in plan.objects:
+        vessel = next((rel.parent for rel in plan.relations if rel.kind == "on" and rel.child == obj.name), GROUND)
+        mouth = _mouth(assets[vessel]) if obj.noun == "lid" and vessel in assets else 0.0
+        radius = float(np.hypot(*assets[obj.name].visual.vertices[:, :2].T).max())
+        sized = obj.scale != 1.0 or obj.extent is not None
+        if mouth and not sized and not mouth + _LAP / 2 <= radius <= _DWARFED * mouth:
+            factor = round((mouth + _LAP) / radius, 2)
+            found[obj.name] = remake(obj.name, factor), factor
+    return found
+
+
+def _mouth(asset: Asset) -> float:
+    """Radius of the round opening of `asset` at its rim [m]; 0 where it has none."""
+    inside = next((region for region in asset.regions if (region.kind, region.shape) == ("in", "disc")), None)
+    if inside is None or not math.isfinite(inside.height):
+        return 0.0
+    away = asset.visual.vertices - np.array(inside.floor)
+    rim = away[np.abs(away[:, 2] - inside.height) < _RIM]
+    return float(np.hypot(rim[:, 0], rim[:, 1]).min()) if len(rim) else 0.0
 
 
 def _seat(asset: Asset) -> float:
