@@ -108,6 +108,7 @@ _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _writte
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
+_OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -115,9 +116,16 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_alike(_alternating(_hued(tokens)), nouns))
+    usual = _plain(_alike(_alternating(_hued(_begun(tokens))), nouns))
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
+
+
+def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    words = [token.text for token in tokens]
+    opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 
 def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
