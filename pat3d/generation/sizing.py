@@ -115,10 +115,11 @@ def fitting_lids(
     found: dict[str, tuple[Asset, float]] = {}
     for obj in plan.objects:
         vessel = next((rel.parent for rel in plan.relations if rel.kind == "on" and rel.child == obj.name), GROUND)
-        mouth = _mouth(assets[vessel]) if obj.noun == "lid" and vessel in assets else 0.0
+        if obj.noun != "lid" or vessel == GROUND or obj.scale != 1.0 or obj.extent is not None:
+            continue
+        mouth = _mouth(assets[vessel])
         radius = float(np.hypot(*assets[obj.name].visual.vertices[:, :2].T).max())
-        sized = obj.scale != 1.0 or obj.extent is not None
-        if mouth and not sized and not mouth + _LAP / 2 <= radius <= _DWARFED * mouth:
+        if mouth and not mouth + _LAP / 2 <= radius <= _DWARFED * mouth:
             factor = round((mouth + _LAP) / radius, 2)
             found[obj.name] = remake(obj.name, factor), factor
     return found

@@ -14,20 +14,8 @@ from pat3d.plan.grammar.words.sizes import too_large
 
 _BORNE = 1.2
 """Cost of being on something, see Plausible.on, at which what is above that may rest on it."""
-_REACHING = (
-    "tree",
-    "rod",
-    "lamp",
-    "floor lamp",
-    "faucet",
-    "umbrella",
-    "monitor",
-    "tv",
-    "clock",
-    "mirror",
-    "picture frame",
-    "shelf",
-)
+_REACHING = ("tree", "rod", "lamp", "floor lamp", "faucet", "umbrella", "monitor", "tv", "clock", "mirror",
+             "picture frame", "shelf")  # fmt: skip
 """What is above other things without resting on them."""
 _FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
 """What carries one thing, and what is slender besides."""

@@ -9,7 +9,7 @@ from typing import cast
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.likes import SHAPES, compared_anew, measured
+from pat3d.plan.grammar.meaning.likes import SHAPES, compared_anew, measured, oppositely_sized
 from pat3d.plan.grammar.meaning.matching import colours_of, is_numbered, line_up, position
 from pat3d.plan.grammar.meaning.ones import coloured_like
 from pat3d.plan.grammar.meaning.pronouns import Pronouns
@@ -24,9 +24,8 @@ class Contrast(Pronouns):
 
     def _told_by_noun(self, one: Phrase, other: Phrase) -> bool:
         """Whether another noun tells the two apart: "the cat figurine" and "the dog figurine"."""
-        ours, theirs = (
-            {word for word in each.modifiers.adjectives if self._maker.is_thing(word)} for each in (one, other)
-        )
+        words = (one.modifiers.adjectives, other.modifiers.adjectives)
+        ours, theirs = ({word for word in each if self._maker.is_thing(word)} for each in words)
         return bool(ours and theirs) and not ours & theirs
 
     def _told_otherwise(self, group: Group, phrase: Phrase) -> bool:
@@ -42,10 +41,7 @@ class Contrast(Pronouns):
             return True
         if any(pair & looks[0] and pair & looks[1] and not pair & looks[0] & looks[1] for pair in lexicon.OPPOSITES):
             return True
-        named = [(lexicon.SIZES.get(each.split()[0], 1.0), own) for each, own in
-                 ((group.said, theirs.scale), (phrase.said or phrase.head, ours.scale)) if " " in each]  # fmt: skip
-        if any((size - 1.0) * (own - 1.0) < 0.0 for size, own in named):
-            # "The large bowl" has a name of its own; "the small bowl" is another.
+        if oppositely_sized(group.said, theirs.scale) or oppositely_sized(phrase.said or phrase.head, ours.scale):
             return True
         if compared_anew(phrase, [item for item in self._world.items() if item.group.noun == group.noun]):
             return True

@@ -219,11 +219,8 @@ class Doing(Placing):
         if single and self._said.speaks_of_each(parent_heads):
             # "Place one fig from the box into each of two bowls"
             children = multiply(self._world, children, len(parents))
-        if (
-            len(children) > 1 == len(parents)
-            and _OWN.search(self._clause.said)
-            and self._said.speaks_of_each(child_heads)
-        ):
+        own = len(children) > 1 == len(parents) and _OWN.search(self._clause.said)
+        if own and self._said.speaks_of_each(child_heads):
             # "Put each of the two apples on its own plate"
             parents = multiply(self._world, parents, len(children))
         moved, goal = (" ".join(self._chunks[head].text for head in heads) for heads in (child_heads, parent_heads))

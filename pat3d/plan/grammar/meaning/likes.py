@@ -158,3 +158,8 @@ def measured(words: Modifiers) -> Modifiers:
         # "The tallest" is tall as the catalogue makes what is tall.
         size, kept = "", (*kept, size)
     return replace(words, size_word=size, scale=scale, adjectives=tuple(dict.fromkeys(kept)))
+
+
+def oppositely_sized(name: str, scale: float) -> bool:
+    """Whether `name` says a size, and `scale` is of the other: "the large bowl" has a name of its own."""
+    return " " in name and (lexicon.SIZES.get(name.split()[0], 1.0) - 1.0) * (scale - 1.0) < 0.0

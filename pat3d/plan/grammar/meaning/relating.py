@@ -382,9 +382,8 @@ class Relating:
             return
         on_it = level and not world.likely.stands_by(world.noun(children[0]), world.noun(parent))
         if on_it and side in ("left", "right") and said and "side" not in said.split():
-            world.note(
-                f'"{children[0].group.words}" {said} "{parent.group.words}": on it; "to the {side} of" has it beside.'
-            )
+            beside = f'"to the {side} of" has it beside.'
+            world.note(f'"{children[0].group.words}" {said} "{parent.group.words}": on it; {beside}')
         if side == "centre" or on_it:
             kind = world.containment(parent)
             world.place(children, kind, parents)

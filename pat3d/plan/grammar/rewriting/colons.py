@@ -37,9 +37,8 @@ def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """`sentence`, where it is an instruction, with what its list names, or with where each thing is to go."""
     colon = next((n for n in range(2, len(sentence) - 2) if sentence[n].text in (":", "-")), 0)
     comma = next((n for n in range(2, len(sentence) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
-    colon = colon or (
-        comma if sentence[comma].mark and _lists_goals(sentence[:comma], sentence[comma + 1 :], nouns) else 0
-    )
+    goals = sentence[comma].mark and _lists_goals(sentence[:comma], sentence[comma + 1 :], nouns)
+    colon = colon or (comma if goals else 0)
     verb = asked(sentence, nouns) if colon else ""
     told = [token for token in sentence[colon + 1 : -1] if token.text not in _ORDER]
     if not verb or not told:

@@ -65,10 +65,6 @@ _WORKING = frozenset({"wipe", "wash", "scrub", "rinse", "stir", "shake", "dump",
                       "arrange", "release", "wrap", "tie", "untie", "unstack", "lay", "transport", "return", "lean",
                       "slice", "heat", "cook", "mix", "scoop", "store", "distribute", "restock", "refill"})  # fmt: skip
 """Verbs that open a prompt before a bare noun, and describe none: "wipe plate with towel"."""
-_CLOTHS = ("towel", "dish towel", "sponge", "napkin", "brush", "tissue box", "mop", "broom", "paper towel")
-_BLADES = ("knife", "kitchen knife", "scissors", "fork", "spoon", "saw", "pizza cutter", "utility knife")
-_DONE_WITH = {**dict.fromkeys(("dry", "clean", "wipe"), _CLOTHS), "cut": _BLADES, "open": _BLADES}
-"""Verbs that are adjectives as well, and what it is done with where they are verbs before a bare noun."""
 _WITH_ANOTHER = frozenset({"wipe", "scrub", "rinse", "stir", "squeeze", "unfold", "pour", "unscrew", "unplug", "shake"})
 """Those that are never nouns, so that they follow another instruction: "pick up sponge and wipe shoe"."""
 FILLERS = frozenset({
@@ -324,7 +320,7 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
     jotted = word == "plate" and link_at(tokens, at + 1) > 0
     if nouns.match([word, follower]) or jotted:
         return None
-    if (follower in _PARTICLES and base in _SEPARABLE) or (opening and not at and _is_done_with(tokens, nouns)):
+    if follower in _PARTICLES and base in _SEPARABLE:
         return at
     behind = tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS
     if follower in _PARTICLES and base in ("open", "close", "pull", "fold", "roll") and behind:
@@ -363,15 +359,6 @@ def _verb_at(tokens: Sequence[Token], at: int, nouns: Nouns, *, opening: bool) -
             return None
         return at
     return None
-
-
-def _is_done_with(tokens: Sequence[Token], nouns: Nouns) -> bool:
-    """Whether `tokens` are "dry pan with tea towel", said of a deed; a dry pan with a lid is a thing."""
-    words = [token.text for token in tokens]
-    tool = words.index("with") + 1 if "with" in words[2:] else len(words)
-    end = next((n for n in range(tool, len(words)) if tokens[n].mark or words[n] == "and"), tool)
-    found = (nouns.match(words[n:end]) for n in range(tool, end))
-    return any(one is not None and nouns.of_class(one.noun, _DONE_WITH.get(words[0], ())) for one in found)
 
 
 def _after_actor(tokens: Sequence[Token], at: int) -> int:

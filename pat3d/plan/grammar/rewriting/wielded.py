@@ -30,10 +30,11 @@ _GRIPPING = ("tongs", "spatula", "stick", "tweezers", "chopsticks", "pliers", "l
 _CUTLERY = ("knife", "kitchen knife", "fork", "spoon", "scissors")
 """What things are picked up with that have none of it: "pick up bread with knife"."""
 _CARRYING = ("plate", "tray", "cutting board", "table", "desk", "counter", "toolbox", "shelf", "napkin", "placemat")
-_CLOTHS = ("towel", "dish towel", "napkin", "paper towel", "sponge", "brush", "scrub brush", "paintbrush")
+_CLOTHS = ("towel", "dish towel", "napkin", "paper towel", "sponge", "brush", "scrub brush", "paintbrush",
+           "mop", "broom", "tissue box")  # fmt: skip
 _DONE_WITH = {
     **dict.fromkeys(("dry", "wipe", "clean", "wash", "rinse", "scrub", "dust", "polish", "cover"), _CLOTHS),
-    **dict.fromkeys(("cut", "slice", "chop", "carve", "split", "hold"), _TOOLS),
+    **dict.fromkeys(("cut", "slice", "chop", "carve", "split", "hold", "open"), _TOOLS),
 }
 """Tools of what is done to a thing without an article: "dry plate with towel" tells no plate that has one."""
 
