@@ -46,6 +46,12 @@ SHORT = 0.7
 RISER = 0.1
 """Least height of the robot's base above the surface of the work [m]."""
 
+ALONG_MARGIN = 0.08
+"""Least distance of every joint from its limits where a hand goes along the front of something [rad]."""
+
+ACROSS = 0.9
+"""By how much the cameras are aside of a robot that has to stand in front of something [rad]."""
+
 TOGETHER_TRIED = 12
 """Pairs of grasps that are tried for two arms where they may stand, and kept, at most."""
 
@@ -70,7 +76,8 @@ def place(scene: Scene, robot: str, needs: Needs) -> Placement:
         frame = Frame(position, yaw)
         reached = reach.at(frame)
         if reached is not None:
-            return site.placement(reach.arm, frame, reached | dict.fromkeys(needs.push, ()), reach.tip)
+            found = site.placement(reach.arm, frame, reached | dict.fromkeys(needs.push, ()), reach.tip)
+            return found if needs.side is None else replace(found, view=needs.side + ACROSS)
     raise reach.refusal(robot, site, any(True for _ in site.candidates(reach.standing)))
 
 
@@ -168,12 +175,14 @@ class _Reach:
     closing_axis: Sequence[float]
     grasps: Mapping[str, list[Grasp]]
     visit: Sequence[tuple[float, float, float]]
+    side: float | None = None
+    """See `Needs`."""
 
     @staticmethod
     def of(scene: Scene, robot: str, needs: Needs) -> _Reach:
         gripper = measure_gripper(robot)
         grasps = grasps_of(scene, needs.grasp, robot, put=bool(needs.visit), cleared=needs.cleared)
-        return _Reach(arm_kinematics(robot), gripper.tip, gripper.closing_axis, grasps, needs.visit)
+        return _Reach(arm_kinematics(robot), gripper.tip, gripper.closing_axis, grasps, needs.visit, needs.side)
 
     def __post_init__(self) -> None:
         self.standing = _standing(self.arm)
@@ -191,7 +200,7 @@ class _Reach:
                 known = self._farthest.get(name, (math.inf, 0.0, 0.0))
                 self._farthest[name] = min(known, (math.hypot(aside, up), aside, up))
                 return None
-        there = all(_reaches_point(self.arm, frame, np.array(point), self.tip) for point in self.visit)
+        there = all(_reaches_point(self.arm, frame, np.array(point), self.tip, self.side) for point in self.visit)
         return reached if there else None
 
     def refusal(self, robot: str, site: Site, room: bool) -> TaskError:
@@ -249,9 +258,13 @@ def _reached(arm: ArmKinematics, frame: Frame, grasp: Grasp, tip: float, closing
     return best
 
 
-def _reaches_point(arm: ArmKinematics, frame: Frame, point: Array, tip: float) -> bool:
+def _reaches_point(arm: ArmKinematics, frame: Frame, point: Array, tip: float, side: float | None = None) -> bool:
+    """Whether the hand gets to a point, pointing down; with a `side`, with room to spare, the fingers along the front
+    of what is there."""
     at = frame.local(point + [0.0, 0.0, tip])
     axis = measure_gripper(arm.robot.name).closing_axis
-    return any(
-        arm.solve(at, hand_rotation(turn, axis)) is not None for turn in (math.pi / 2, 0.0, -math.pi / 2, math.pi)
-    )
+    turns = (math.pi / 2, 0.0, -math.pi / 2, math.pi)
+    if side is not None:
+        turns = (side + math.pi / 2 - frame.yaw, side - math.pi / 2 - frame.yaw)
+    found = (arm.solve(at, hand_rotation(turn, axis)) for turn in turns)
+    return any(joints is not None and (side is None or arm.margin(joints) > ALONG_MARGIN) for joints in found)

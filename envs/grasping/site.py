@@ -39,6 +39,9 @@ BASE_RADIUS = 0.16
 DIRECTIONS = (90.0, 180.0, 0.0, 270.0, 135.0, 45.0, 225.0, 315.0)
 """Where to stand as seen from the work [degrees]: behind it, facing the viewer, first."""
 
+ASIDE = (0.0, 30.0, -30.0, 55.0, -55.0)
+"""By how much the robot may stand aside of where a task needs it [degrees]."""
+
 DISTANCES = (0.0, -0.08, 0.08, 0.16, -0.16, 0.24)
 """Tried around the comfortable distance [m]."""
 
@@ -143,7 +146,7 @@ class Site:
             work=work,
             visit=needs.visit,
             room=needs.room,
-            directions=DIRECTIONS[:1] if needs.facing else DIRECTIONS,
+            directions=_directions(needs),
         )
 
     def describe(self) -> str:
@@ -259,6 +262,14 @@ class Site:
             if joints is not None:
                 return joints
         return home
+
+
+def _directions(needs: Needs) -> tuple[float, ...]:
+    """From which the robot may face its work [degrees], the preferred one first."""
+    if needs.side is not None:
+        side = math.degrees(needs.side)
+        return tuple(side + turn for turn in ASIDE)
+    return DIRECTIONS[:1] if needs.facing else DIRECTIONS
 
 
 def _root(scene: Scene, name: str) -> str:

@@ -27,6 +27,9 @@ class Needs:
     """Whether the objects are taken one after the other, so that what was taken is no longer in the way."""
     facing: bool = False
     """Whether the robot has to face the viewer, so that left and right in a picture are those of the scene."""
+    side: float | None = None
+    """Where the robot has to stand as seen from its work [rad], about z from +x, its fingers across that at the points
+    to visit; None for wherever there is room."""
 
 
 @dataclass(frozen=True, kw_only=True)

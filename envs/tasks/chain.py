@@ -12,9 +12,10 @@ from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Numbers
 from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.beside_moved import BesideMoved, in_place
+from pat3d.envs.tasks.drawers import Close, Open
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
 from pat3d.envs.tasks.paraphrase import in_turn
-from pat3d.envs.tasks.task import Goal, Judge, Task, Verdicts, rests_upon, steps_for
+from pat3d.envs.tasks.task import Goal, Judge, Slide, Task, Verdicts, rests_upon, steps_for
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 from pat3d.scene.task_spec import AND_THEN, CHAIN, STEPS
@@ -25,7 +26,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Chain(Task):
-    """Put, stack, or lift and put back one object after the other, in this order; the last step may pick one up."""
+    """Put, stack, or lift and put back one object after the other, in this order; the last step may pick one up.
+
+    Between them drawers may be opened and shut, one of them both.
+    """
 
     kind: ClassVar[str] = CHAIN
     form: ClassVar[str] = "chain:STEP:then:STEP..., as in chain:place:OBJECT:WHERE:then:pick:OBJECT"
@@ -38,12 +42,16 @@ class Chain(Task):
             raise TaskError(f"a chain has {fewest} to {most} steps, not {len(self.steps)}.")
         for number, step in enumerate(self.steps):
             last = number == len(self.steps) - 1
-            if not isinstance(step, Place | Stack | Beside | Lift) and not (last and isinstance(step, Pick)):
+            if not isinstance(step, Place | Stack | Beside | Lift | Open | Close) and not (
+                last and isinstance(step, Pick)
+            ):
                 raise TaskError(
-                    f'"{step.spec}" cannot be step {number + 1}: steps put, stack or lift, the last may pick.'
+                    f'"{step.spec}" cannot be step {number + 1}: steps put, stack, lift, open or close, the last may '
+                    "pick."
                 )
-        moved = [step.names[0] for step in self.steps]
-        if len(set(moved)) < len(moved):
+        moved = [step.names[0] for step in self.steps if not isinstance(step, Open | Close)]
+        slid = [step.spec for step in self.steps if isinstance(step, Open | Close)]
+        if len({*moved, *slid}) < len(self.steps):
             raise TaskError("every step of a chain moves another object.")
 
     @property
@@ -67,8 +75,10 @@ class Chain(Task):
 
     def check(self, scene: Scene) -> None:
         turns = self.turns
-        for step in turns:
-            step.check(scene)
+        for number, step in enumerate(turns):
+            # What an earlier step opens is shut at the start.
+            if not any(isinstance(one, Open | Close) and one.names == step.names for one in turns[:number]):
+                step.check(scene)
         # What is beside something that is then taken away, with what it stands on or alone, is beside it no longer.
         for step in turns:
             if isinstance(step, Beside):
@@ -83,6 +93,8 @@ class Chain(Task):
             visit=tuple(dict.fromkeys(point for one in needs for point in one.visit)),
             room=tuple(dict.fromkeys(point for one in needs for point in one.room)),
             cleared=True,
+            push=tuple(dict.fromkeys(name for one in needs for name in one.push)),
+            side=next((one.side for one in needs if one.side is not None), None),
         )
 
     def horizon(self, scene: Scene, control_freq: float) -> int:
@@ -90,6 +102,14 @@ class Chain(Task):
 
     def goals(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> list[Goal]:
         return next((goals for step in self.turns if (goals := step.goals(state, graspable, done))), [])
+
+    def slide(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Slide | None:
+        for step in self.turns:
+            if (slide := step.slide(state, graspable, done)) is not None:
+                return slide
+            if step.goals(state, graspable, done):
+                return None
+        return None
 
     def judge(self, states: States) -> Judge:
         return ChainJudge(states, self.turns)
@@ -133,6 +153,12 @@ class ChainJudge(Judge):
         self._judges = [step.judge(states) for step in steps]
         self._titles = [f"step {number + 1}: {step.spec}" for number, step in enumerate(steps)]
         self._stage = np.zeros(states.count, dtype=np.int64)
+        self._undone = {
+            number
+            for number, step in enumerate(steps)
+            if any(isinstance(one, Open | Close) and one.names == step.names for one in steps[number + 1 :])
+        }
+        """Steps that a later one undoes: what is opened and then shut."""
 
     def begin(self, worlds: Numbers) -> None:
         super().begin(worlds)
@@ -153,6 +179,7 @@ class ChainJudge(Judge):
             if number < last:
                 # Whether it is in, on or beside its place, whatever has become of the hand since.
                 there = next(iter(one.predicates.values())) & one.predicates.get("landmark stays", True)
+                there = there | (passed if number in self._undone else False)
                 kept &= there | ~passed
                 done += passed & there
                 self._pass(np.flatnonzero(due & one.success), number + 1)

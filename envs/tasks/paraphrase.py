@@ -88,6 +88,20 @@ _PUSH = (
     "without lifting {it}, get it {where}",
 )
 
+_OPEN = (
+    "open {it}",
+    "pull {it} open",
+    "slide {it} out",
+    "pull {it} out by its handle and leave it open",
+)
+
+_CLOSE = (
+    "close {it}",
+    "push {it} shut",
+    "shut {it}",
+    "slide {it} back in until it is closed",
+)
+
 _CARRY = (
     "lift {it}{source} with both hands and keep it level",
     "take {it}{source} with both arms and hold it up without tilting it",
@@ -113,6 +127,8 @@ WORDINGS = {
     "retrieve": _RETRIEVE,
     "rearrange": _REARRANGE,
     "push": _PUSH,
+    "open": _OPEN,
+    "close": _CLOSE,
     "carry": _CARRY,
     "handover": _HANDOVER,
 }

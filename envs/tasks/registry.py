@@ -9,6 +9,7 @@ from typing import Any
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
 from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.chain import Chain
+from pat3d.envs.tasks.drawers import Close, Open
 from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
 from pat3d.envs.tasks.push import Push, push_task
@@ -20,7 +21,9 @@ from pat3d.scene.task_spec import AND_THEN
 
 TASKS: dict[str, type[Task]] = {
     kind.kind: kind
-    for kind in (Pick, Lift, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Push, Beside, Carry, HandOver)
+    for kind in (
+        Pick, Lift, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Push, Beside, Open, Close, Carry, HandOver,
+    )
 }
 """Every kind of task by the first word of its specification."""
 

@@ -12,7 +12,8 @@ from pat3d.envs.physics.simulation import Simulation
 from pat3d.envs.physics.world import compose
 from pat3d.envs.robots.arms import make_robot
 from pat3d.envs.tasks.hands import rehearse_together
-from pat3d.envs.tasks.moves import Move, Planner
+from pat3d.envs.tasks.moves import Array, Move, Planner
+from pat3d.envs.tasks.pulls import PullPlanner
 from pat3d.envs.tasks.push import Push
 from pat3d.envs.tasks.strokes import StrokePlanner
 from pat3d.envs.tasks.task import Task
@@ -81,7 +82,13 @@ def rehearsed(work: Workplace) -> Placement:
         rehearse_together(work, at_once=isinstance(work.task, Carry))
         return work.placement
     robot, simulation, planner = work.robot, work.simulation, Planner(work)
-    while goals := planner.goals():
+    while True:
+        while (slide := work.task.slide(simulation.state, tuple(work.placement.grasps), planner.put)) is not None:
+            PullPlanner(work).pull(slide)
+            _shift(simulation, slide.name, slide.by * slide.front)
+            planner.put.add(slide.spec)
+        if not (goals := planner.goals()):
+            break
         again = [goal.name for goal in goals if goal.name in planner.put]
         if again:
             raise TaskError(f'{robot} can put "{again[0]}" where it should go, but it finds no room to stay there.')
@@ -114,9 +121,14 @@ def _put_down(planner: Planner, simulation: Simulation, move: Move) -> None:
     heights = (*np.arange(low, released[2], FALL), released[2])
     ways = (np.array([released[0], released[1], height]) for height in heights)
     shift = next((way for way in ways if planner.clearance.fits(move.name, way)), released)
-    # What is in it comes along.
-    inside = [one for one in simulation.world.objects if one != move.name and state.inside(one, move.name)]
-    for name in (move.name, *inside):
+    _shift(simulation, move.name, shift)
+
+
+def _shift(simulation: Simulation, moved: str, shift: Array) -> None:
+    """Move an object by `shift` [m], shape (3,), with what is in it."""
+    state = simulation.state
+    inside = [one for one in simulation.world.objects if one != moved and state.inside(one, moved)]
+    for name in (moved, *inside):
         first = int(simulation.world.positions[simulation.world.objects.index(name)])
         simulation.data.qpos[first : first + 3] += shift
     import mujoco

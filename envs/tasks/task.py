@@ -52,6 +52,18 @@ class Goal:
     """Others belong there too, so that its middle is left free."""
 
 
+class Slide(NamedTuple):
+    """A drawer that a task wants moved along its way next."""
+
+    name: str
+    spec: str
+    """Of the step that wants it."""
+    by: float
+    """[m]"""
+    front: Array
+    """Unit vector towards which it opens, shape (3,)."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Verdict:
     """How far an episode is after one control step."""
@@ -173,6 +185,11 @@ class Task(ABC):
             graspable: objects that the robot can take, in the order of taking them.
             done: objects that were taken and put down already, which the state alone does not tell.
         """
+
+    def slide(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Slide | None:
+        """The drawer to move next, before any of the `goals`; None for most. Arguments as of these, and `done` holds
+        the specifications of what was opened or shut already."""
+        return None
 
     @abstractmethod
     def judge(self, states: States) -> Judge:

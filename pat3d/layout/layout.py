@@ -19,6 +19,7 @@ from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.bodies import Array, Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
+from pat3d.layout.drawers import slide_in, slides
 from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.formations import Wishes, ring_angles
 from pat3d.layout.frames import column_of, flat_regions
@@ -207,12 +208,15 @@ class _Arranger:
         root = self.bodies[name].at(rotation, np.zeros(3))
         group = Group((root,))
         kids = self.children[name]
+        drawn = [kid for kid in kids if self.kinds[kid] == "in" and slides(self.bodies[kid].asset, root.body.asset)]
+        kids = [kid for kid in kids if kid not in drawn]
         inside = [kid for kid in kids if self.kinds[kid] == "in" and column_of(root) is not None]
         hanging = [kid for kid in kids if self.kinds[kid] == "hangs_from"]
         for kid in kids:
             if self.kinds[kid] == "in" and kid not in inside:
                 self.notes.append(f'"{name}" has no cavity; "{kid}" stands on it.')
         onto = [kid for kid in kids if kid not in inside and kid not in hanging]
+        group = self._with(group, slide_in(root, [self._build(kid, 0.0) for kid in drawn], self.gap))
         group = self._fill(group, inside)
         group = self._load(group, onto, yaw)
         group = self._with(group, self._span(name, [group])[1:])

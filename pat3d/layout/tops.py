@@ -15,6 +15,7 @@ from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, lower, pack
+from pat3d.layout.drawers import ways_out
 from pat3d.layout.flat import Item, Lateral, Spot
 from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
@@ -114,16 +115,16 @@ def spread(
 def item_of(group: Group, *, turnable: bool) -> Item:
     """The outline of `group` from above, relative to its origin."""
     origin = group.root.position[:2]
-    low, high = group.low, group.high
-    points = np.concatenate([member.vertices[:, :2] for member in group.members])
+    points = np.concatenate([*(member.vertices[:, :2] for member in group.members), *ways_out(group.members)])
+    low, high = points.min(axis=0), points.max(axis=0)
     noun = group.root.body.asset.noun
     return Item(
         name=group.name,
-        low=low[:2] - origin,
-        high=high[:2] - origin,
+        low=low - origin,
+        high=high - origin,
         outline=outline(points) - origin,
         centre_of_mass=group.centre_of_mass[:2] - origin,
-        tall=float(high[2] - low[2]),
+        tall=float(group.size[2]),
         alike=noun,
         turnable=turnable,
         walled=not _WALLED.isdisjoint({noun, *noun.split()}),

@@ -17,10 +17,12 @@ STEPS = (2, 5)
 """Fewest and most steps of a chain."""
 PUTTING = frozenset({"place", "stack", "beside"})
 """Kinds of steps at the end of which a thing stands elsewhere; the last step of a chain may be "pick" as well."""
+SLIDING = frozenset({"open", "close"})
+"""Kinds of steps that leave a drawer where it slides; a chain may open one and shut it."""
 
 ASIDE = tuple(sorted(LATERAL_KINDS - {"around"}))
 """Relations of "beside:OBJECT:RELATION:LANDMARK"."""
-_NAMES = {"pick": 1, "unload": 1, "place": 2, "stack": 2, "sort": 0}
+_NAMES = {"pick": 1, "unload": 1, "place": 2, "stack": 2, "sort": 0, "open": 1, "close": 1}
 """How many things a step names."""
 
 
@@ -53,9 +55,10 @@ def chain_of(steps: Sequence[str]) -> str | None:
     """The chain of `steps`; None where they make none: too many, one that only looks on, or a thing moved twice."""
     fewest, most = STEPS
     told = [step.split(":") for step in steps]
-    moved = [names[1] for names in told if len(names) > 1]
+    moved = [":".join(names) if names[0] in SLIDING else names[1] for names in told if len(names) > 1]
     kinds = [names[0] for names in told]
-    puts = all(kind in PUTTING for kind in kinds[:-1]) and (not kinds or kinds[-1] in PUTTING | {"pick"})
+    puts = all(kind in PUTTING | SLIDING for kind in kinds[:-1])
+    puts &= not kinds or kinds[-1] in PUTTING | SLIDING | {"pick"}
     # What is put beside something that is moved later is beside it no more.
     astray = any(step[0] == "beside" and step[3] in moved[at:] for at, step in enumerate(told))
     if not fewest <= len(steps) <= most or not puts or astray or len({*moved}) < len(steps):

@@ -20,6 +20,7 @@ from pat3d.envs.robots.arms import measure_gripper
 from pat3d.envs.tasks.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.envs.tasks.push import Push
 from pat3d.errors import EnvironmentSetupError
+from pat3d.policies_eval.policies.drawers import move_drawer
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.pushing import Pusher
 from pat3d.policies_eval.policies.two_hands import TWO_HANDED, TwoHands
@@ -112,6 +113,12 @@ class ScriptedPolicy:
 
     def _begin(self) -> None:
         """Choose the next move."""
+        state, grasps = self._env.simulation.state, tuple(self._env.placement.grasps)
+        slide = self._env.task.slide(state, grasps, self._planner.put)
+        if slide is not None:
+            self._slide, self._script = slide, move_drawer(self._env, slide)
+            self._enter("slide_drawer")
+            return
         move = self._planner.next(self._failures)
         if move is None:
             self._stay = self._env.simulation.state.hand.copy()
@@ -152,6 +159,23 @@ class ScriptedPolicy:
             self._enter(then)
             return None
         return action
+
+    def _slide_drawer(self) -> NDArray[np.float32] | None:
+        """Until the drawer is where it should be; what was done is not begun again where it is undone later."""
+        action = next(self._script, None)
+        if action is None:
+            self._stay, self._rotation = self._env.simulation.state.hand.copy(), self._env.simulation.state.hand_rotation
+            self._enter("slid")
+        return action
+
+    def _slid(self) -> NDArray[np.float32] | None:
+        self._steps += 1
+        if self._steps > SETTLE_STEPS:
+            if self._env.task.slide(self._env.simulation.state, (), self._planner.put) is None:
+                self._planner.put.add(self._slide.spec)
+            self._begin()
+            return None
+        return self._servo.towards(self._stay, self._rotation, -1.0)[0]
 
     def _rise(self) -> NDArray[np.float32] | None:
         """Straight up first where the way to the grasp is low."""
