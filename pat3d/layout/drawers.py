@@ -18,6 +18,8 @@ PULLED = 0.42
 """Share of its depth by which an open drawer is out: its centre of mass stays over the floor that it slides on."""
 HAND = 0.06
 """Before a handle, for a hand [m]."""
+WIDE = 0.12
+"""Beside a drawer, for a hand that takes what stands there [m]."""
 _SIDES = 1e-3
 """Least distance that a drawer keeps from the walls it slides between [m]."""
 
@@ -58,10 +60,15 @@ def slide_in(cabinet: Placed, groups: Sequence[Group], gap: float) -> list[Group
 
 
 def ways_out(members: Sequence[Placed]) -> list[Array]:
-    """What the drawers among `members` and a hand before them take up when they are pulled out, seen from above [m]."""
-    drawers = [one for one in members if one.body.asset.noun == SHUT]
-    fronts = [one.rotation @ np.array([0.0, -pulled(one.body.asset) - HAND, 0.0]) for one in drawers]
-    return [one.vertices[:, :2] + front[:2] for one, front in zip(drawers, fronts, strict=True)]
+    """What the drawers among `members` take up when they are pulled out, seen from above, shape (n, 2) each [m].
+
+    With a hand before them, and beside them, so that what stands there can be taken to be put in.
+    """
+    drawers = [one for one in members if one.body.asset.noun in (SHUT, OPEN)]
+    ways = ((one, np.array([side * WIDE, -out - HAND, 0.0]))
+            for one in drawers for side in (-1.0, 1.0)
+            for out in (pulled(one.body.asset) if one.body.asset.noun == SHUT else 0.0,))  # fmt: skip
+    return [one.vertices[:, :2] + (one.rotation @ way)[:2] for one, way in ways]
 
 
 def shut_at(drawer: Asset, cabinet: Asset) -> float:
