@@ -32,8 +32,8 @@ WANTED = {"open": 0.85, "close": 0.0}
 LEVEL = 0.98
 """Least cosine between the vertical of a drawer now and at the start."""
 
-AWAY = 0.03
-"""Of fingers before a handle that they are to push [m]."""
+BEHIND, AWAY = 0.016, 0.03
+"""Of the middle of fingers behind the bar that they pull at, and before a handle that they push [m]."""
 
 HANDLE_ABOVE = 0.12
 """Over the handle, where the hand has to get [m]."""
@@ -72,11 +72,11 @@ def out_at_rest(scene: Scene, name: str) -> float:
 
 def at_handle(asset: Asset, kind: str) -> Array:
     """Where fingers begin to open or close a drawer [m], in its frame, shape (3,): behind the bar, or before it."""
-    from pat3d.assets.catalogue.drawers import BAR, BOX, GRIP, REACH
+    from pat3d.assets.catalogue.drawers import BAR, BOX, GRIP
 
     low, high = asset.bounds
     scale = float(high[2] - low[2]) / BOX[2]
-    depth = scale * (BAR + REACH / 2) if kind == "open" else -AWAY
+    depth = scale * BAR + BEHIND if kind == "open" else -AWAY
     return np.array([0.0, low[1] + depth, scale * GRIP * BOX[2]])
 
 

@@ -8,7 +8,7 @@ _HOLLOW = frozenset({"bowl", "cup", "mug", "glass", "pot", "jar", "vase", "baske
 """Last words of nouns of what things are put in."""
 _OPEN = frozenset({"storage box", "lunch box", "open toolbox", "open treasure chest", "open cookie jar", "paper bag",
                    "measuring spoon", "graduated cylinder", "ice cube tray", "bathtub", "washtub", "aquarium", "tureen",
-                   "umbrella stand"})  # fmt: skip
+                   "umbrella stand", "drawer", "open drawer"})  # fmt: skip
 """Other nouns of what things are put in."""
 FLAT = ("plate", "saucer", "platter", "tray", "baking tray", "pan", "frying pan", "wok", "soap dish", "dish rack",
         "dustpan", "paper tray", "toy truck", "baking dish", "petri dish", "drawer organizer", "cube tray", "wine rack",

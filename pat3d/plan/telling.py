@@ -16,7 +16,8 @@ from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation
 from pat3d.scene.task_spec import steps_of
 
 _DEEDS = {"place": "put {0} {where} {1}", "stack": "stack {0} on {1}", "pick": "pick up {0}",
-          "unload": "take everything out of {0}", "sort": "sort what is there"}  # fmt: skip
+          "unload": "take everything out of {0}", "sort": "sort what is there", "open": "open {0}",
+          "close": "close {0}"}  # fmt: skip
 """What a task asks for, of the objects that it names."""
 _WAYS = {"height": "high", "width": "wide", "depth": "deep", "length": "long", "thickness": "thick"}
 

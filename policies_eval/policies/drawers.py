@@ -57,6 +57,7 @@ def move_drawer(env: Any, slide: Slide) -> Actions:
     high = max(high, float(pull.above[2]))
     yield from go(np.array([*hand[:2], max(high, float(hand[2]))]), now, NEAR)
     yield from go(np.array([*pull.above[:2], high]), pull.rotation, NEAR)
+    yield from go(pull.above, pull.rotation, EXACT)
     yield from go(pull.start, pull.rotation, EXACT)
     yield from _along(env, servo, slide.name, pull)
     hand = state.hand.copy()

@@ -21,8 +21,10 @@ SIDE, ABOVE, BEHIND = 0.004, 0.008, 0.006
 """Air on each side of a shut drawer, over it and at its back [m]."""
 BOX = (WIDTH - 2 * (WALL + SIDE), DEPTH - WALL - BEHIND, ROOM - ABOVE)
 """Width, depth and height of a drawer without its handle [m]."""
-REACH, BAR = 0.055, 0.012
+REACH, BAR = 0.06, 0.012
 """Between front and bar of a handle, where fingers go, and the bar's thickness [m]."""
+SIDES = 0.05
+"""Height of its sides, which are lower than its front, so that a hand gets to what is in it [m]."""
 OUTSIDE = 0.14
 """Depth of what is in the open of a drawer that is pulled out [m]."""
 GRIP = 0.8
@@ -44,12 +46,14 @@ def drawer_cabinet(style: Style) -> Build:
     rear = span(inner, (back - WALL, back), (0.0, HEIGHT))
     shut = [low for low, is_open in zip(FLOORS, open_rows, strict=True) if not is_open]
     fronts = [span(inner, (front + 0.004, back - WALL), (low, low + ROOM)) for low in shut]
-    knobs = [box(0.05, 0.03, 0.016).moved(0.0, front - 0.01, low + GRIP * BOX[2] - 0.008) for low in shut]
+    # Painted on, so that a hand has room there that pulls at another row.
+    slots = [box(0.15, 0.03, BAR).moved(0.0, front, low + GRIP * BOX[2] - BAR / 2) for low in shut]
     return Build(
         parts=(
             (join(*walls, *boards, rear), style.shade(colour, 0.8)),
-            *([(join(*fronts, *knobs), colour)] if fronts else []),
+            *([(join(*fronts), colour)] if fronts else []),
         ),
+        paint=((join(*slots), style.shade(colour, 0.3)),) if slots else (),
         regions=(shelf_top(x, DEPTH / 2, HEIGHT),),
         mass=14.0,
     )
@@ -59,15 +63,17 @@ def _drawer(style: Style) -> Build:
     x, y, z = BOX
     wall, floor, front = 0.012, 0.008, -y / 2
     bar = span((-_HALF_GRIP, _HALF_GRIP), (front - REACH - BAR, front - REACH), (GRIP * z - BAR / 2, GRIP * z + BAR / 2))
+    # The back is high as well: under the row's ceiling it keeps the drawer level when something is put in.
+    panels = [span((-x / 2, x / 2), (at, at + wall), (0.0, z)) for at in (front, y / 2 - wall)]
     posts = [
         span((s * _HALF_GRIP - BAR / 2, s * _HALF_GRIP + BAR / 2), (front - REACH - BAR, front + wall / 2),
              (GRIP * z - BAR / 2, GRIP * z + BAR / 2))
         for s in (-1, 1)
     ]  # fmt: skip
     return Build(
-        parts=((tray(x, y, z, wall, floor), style.colour()), (join(bar, *posts), style.colour(1))),
+        parts=((join(tray(x, y, SIDES, wall, floor), *panels), style.colour()), (join(bar, *posts), style.colour(1))),
         # What of it is in the open when it is pulled out.
-        regions=(cavity(x / 2 - wall, OUTSIDE / 2, floor, z - floor, at=(0.0, front + wall + OUTSIDE / 2)),),
+        regions=(cavity(x / 2 - wall, OUTSIDE / 2, floor, SIDES - floor, at=(0.0, front + wall + OUTSIDE / 2)),),
         mass=1.4,
     )
 

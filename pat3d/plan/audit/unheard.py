@@ -14,6 +14,7 @@ from pat3d.plan.audit.tallied import compared_words
 from pat3d.plan.audit.words import DEEDS, EACH, FALLEN, FARTHEST, GUESTS, SILENT, THINGS, UNITS
 from pat3d.scene.arrangements import crossing
 from pat3d.scene.relations import carriers_of
+from pat3d.scene.task_spec import SLIDING, steps_of
 
 _MEASURING = (*UNITS, "radius", "diameter", "edge", "side", "height", "width", "depth", "length", "thickness", "wide",
               "tall", "long", "high", "deep")  # fmt: skip
@@ -29,6 +30,8 @@ _ENDS = frozenset({"goal", "aim", "task", "finally", "afterward", "afterwards"})
 _ALONG = frozenset({"left-hand", "right-hand", "central", "fourth", "fifth"})
 _ACROSS = frozenset({"rear", "rearmost", "backmost", "hindmost", "frontmost", "foremost", "central", "fourth", "fifth"})
 """Places of likes beside each other, and of likes one behind the other."""
+_SLIDING = frozenset({"open", "opened", "opening", "pull", "close", "closed", "shut", "push", "slide", "out", "in"})
+"""What is done to a drawer."""
 _MADE = frozenset({"made", "crafted", "carved"})
 _NEIGHBOURS = frozenset({"pair", "neighbour", "neighbor", "neighbouring", "neighboring", "adjacent"})
 """What something is between: each of several and its neighbour."""
@@ -73,6 +76,7 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
         wished = wished or (word in THINGS and it.ranked_thing(at))
         wished = wished or _goes_without_saying(words, at) or (word in GUESTS and _shared(it, words[at - 2 : at]))
         wished = wished or (word in _ENDS and bool(it.tasks.strip()))
+        wished = wished or (word in _SLIDING and SLIDING & {kind for kind, *_ in steps_of(it.plan.task or "")} != set())
         acts = wished or (word == "robot" and words[at + 1 : at + 2] in (["should"], ["will"], ["finds"], ["can"]))
         hued = word in _COLOURS and len({obj.colours for obj in it.plan.objects}) > 2
         acts = acts or (word in ("surface", "area") and at - 1 in named)

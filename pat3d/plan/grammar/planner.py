@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
+from pat3d.plan.drawers import CABINETS, in_cabinets
 from pat3d.plan.grammar.chunking.chunks import trimmed
 from pat3d.plan.grammar.chunking.cutter import Cutter
 from pat3d.plan.grammar.chunking.failures import UnknownNounError, UnreadError
@@ -32,6 +33,7 @@ from pat3d.plan.grammar.rewriting.compass import compass
 from pat3d.plan.grammar.rewriting.denials import without_denials
 from pat3d.plan.grammar.rewriting.distances import with_distances
 from pat3d.plan.grammar.rewriting.distractors import without_distractors
+from pat3d.plan.grammar.rewriting.drawers import drawer_of, drawers_moved
 from pat3d.plan.grammar.rewriting.fractions import in_numbers
 from pat3d.plan.grammar.rewriting.instructions import Clause, clauses
 from pat3d.plan.grammar.rewriting.laid_tables import laid_tables
@@ -156,7 +158,7 @@ class GrammarPlanner(Sparing):
         Raises:
             PromptError: the sentence leaves open what is to be there.
         """
-        sentence = listed_plainly(sentence, self._nouns)
+        sentence = listed_plainly(drawer_of(drawers_moved(sentence), self._nouns), self._nouns)
         sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
         sentence, manners = without_manners(sentence, self._nouns)
         denied = tuple(quoted(text, span) for span in (*denials, *manners))
@@ -172,8 +174,16 @@ class GrammarPlanner(Sparing):
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
+        plan = in_cabinets(plan, self._cabinet_said(prompt))
         plan = audited(plan, self._nouns.resolve, lexicon.FLOOR, self._likely.carried)
         return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *put_otherwise(world, names)))))
+
+    def _cabinet_said(self, prompt: str) -> str:
+        """What `prompt` calls the furniture that drawers are in; nothing where it names none."""
+        words = [token.text for token in tokenise(normalise(prompt))]
+        pairs = [*zip(words, words[1:], strict=False), *((word,) for word in words)]
+        found = ((" ".join(pair), self._nouns.match(pair)) for pair in pairs)
+        return next((said for said, match in found if match is not None and match.noun in CABINETS), "")
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, without its remarks where they cannot be read.

@@ -285,7 +285,8 @@ class Doing(Placing):
             # "Get the spoon from the drawer and close it": the drawer.
             likely, world = self._world.likely, self._world
             below = [world.support(item) for item in children]
-            children = [item for item in below if item is not None and likely.closet(world.noun(item))] or children
+            below = [item for item in below if item is not None and likely.closet(world.noun(item))]
+            children = below or (self._opened() if self._clause.verb != "open" else []) or children
         pronouns = [self._chunks[head].named.kind for head in heads] == ["pronoun"]
         if self._clause.manner == "unload" and pronouns and len(children) == 1:
             # "A jug and a rope are on a cart. Unload it": the cart.
@@ -348,7 +349,10 @@ class Doing(Placing):
             self._world.emptied = children
             return
         said, items, goal = self._clause.said, tuple(children), tuple(parents)
-        self._world.steps.append(Step(manner=manner, said=said, part=part, items=items, link=link, goal=goal))
+        verb = self._clause.verb
+        self._world.steps.append(
+            Step(manner=manner, said=said, verb=verb, part=part, items=items, link=link, goal=goal)
+        )
 
     def _is_items(self, heads: Sequence[int]) -> bool:
         """Whether one of `heads` is "everything" or "the things"."""

@@ -116,6 +116,7 @@ class Step:
     manner: Manner
     said: str
     """The clause, as written."""
+    verb: str = ""
     part: str = ""
     """What of the clause says it, where that asks for several: "the fork beside it"."""
     items: tuple[Item, ...]

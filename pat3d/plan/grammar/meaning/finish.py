@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from pat3d.errors import PromptError
+from pat3d.plan.drawers import DRAWERS
 from pat3d.plan.grammar.meaning import apart, arranging, covers, orders, ranks
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item, Sided
 from pat3d.plan.grammar.meaning.world import World
@@ -46,7 +47,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         raise PromptError(
             f"the prompt names no object to place{told}.{aside} `pat3d catalogue` lists what can be made."
         )
-    for item in world.items():
+    for item in (item for item in world.items() if item.group.noun not in DRAWERS):
         like = [other for other in world.items() if other.group.noun == item.group.noun]
         if item.place and len(like) == 1:
             world.note(f'"{item.group.words}": there is only one, so it is not told by its place.')

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from pat3d.assets.colours import COLOURS, find_colour
 from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError
+from pat3d.plan.drawers import DRAWERS, ROW_WORDS
 from pat3d.plan.grammar.chunking.failures import UnknownNounError, UnreadError
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.described import share_colours
@@ -104,6 +105,8 @@ class Maker:
         for word in (told or phrase.modifiers).adjectives:
             shaded = word not in ("light", "pale") or phrase.modifiers.colours or phrase.modifiers.material
             if word in lexicon.SAID_OTHERWISE or (word in lexicon.SHADE_WORDS and shaded):
+                continue
+            if phrase.noun in DRAWERS and word in ROW_WORDS:
                 continue
             if word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word):
                 continue

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from itertools import pairwise, takewhile
 
+from pat3d.plan.drawers import DRAWERS
 from pat3d.plan.grammar.meaning.entities import Item, Step
 from pat3d.plan.grammar.meaning.kinds import KINDS
 from pat3d.plan.grammar.meaning.world import World
@@ -66,10 +67,11 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
         names: of the objects of the plan.
     """
     steps = world.steps
-    notes = [f'not modelled: "{step.said}": no task does that.' for step in steps if step.manner == "other"]
+    undone = [step for step in steps if step.manner == "other" and not _sliding(step, world, names)]
+    notes = [f'not modelled: "{step.said}": no task does that.' for step in undone]
     begun = [_begins(step, steps[at + 1 :]) for at, step in enumerate(steps)]
     wanted = [step for step, begins in zip(steps, begun, strict=True)
-              if step.manner != "other" and step.items and not begins]  # fmt: skip
+              if step not in undone and step.items and not begins]  # fmt: skip
     specs: list[str] = []
     for step in wanted:
         made = _specs(step, world, names)
@@ -166,6 +168,8 @@ def _otherwise(step: Step, world: World, names: Mapping[Item, str]) -> str:
 
 
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
+    if step.manner == "other":
+        return _sliding(step, world, names)
     if step.manner == "unload":
         return _unloading(step, world, names)
     if step.manner == "sort":
@@ -197,6 +201,13 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     goals = alike if goal.group.height == 1 and len(alike) > 1 and goal in alike else [goal]
     pairs = [(item, goals[at % len(goals)]) for at, item in enumerate(item for item in items if item not in goals)]
     return [f"{kind}:{names[item]}:{names[to]}" for item, to in pairs if world.support(item) is not to]
+
+
+def _sliding(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
+    """The tasks by which drawers are opened or shut; none of what has a door or a lid."""
+    kind = {"open": "open", "close": "close", "shut": "close"}.get(step.verb)
+    drawers = [item for item in step.items if item in names and world.noun(item) in DRAWERS]
+    return [f"{kind}:{names[item]}" for item in drawers] if kind and len(drawers) == len(step.items) else []
 
 
 def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: Mapping[Item, str]) -> list[str]:

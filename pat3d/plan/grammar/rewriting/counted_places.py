@@ -34,6 +34,9 @@ def from_one_side(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         ordinal = next((n for n in (at - 1, at - 2, at - 3) if n >= 0 and made[n].text in ORDINALS), -1)
         between = [token.text for token in made[ordinal + 1 : at]]
         named = not between or between == ["one"] or nouns.match(between) is not None
+        if between == ["drawer"]:
+            # Rows of a cabinet, of which three are made.
+            continue
         if words[0] != "from" or side not in {*_FIRST, *_LAST} or ordinal < 0 or not named:
             continue
         # "the third from the front row"

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.words.stand_ins import STAND_INS
 from pat3d.scene.naming import APART
 
 _ALIASES = {
-    "container": "storage box", "receptacle": "storage box", "rag": "towel", "drawer": "dresser", "computer": "laptop",
+    "container": "storage box", "receptacle": "storage box", "rag": "towel", "computer": "laptop",
     "desktop computer": "monitor", "desk top computer": "monitor", "pc": "laptop", "computer screen": "monitor",
     "brush": "paintbrush", "shoebox": "storage box", "shoe box": "storage box", "soda pop": "soda can",
     "soap bottle": "soap dispenser", "bottle of soap": "soap dispenser",
