@@ -22,7 +22,21 @@ from pat3d.scene.task_spec import AND_THEN
 TASKS: dict[str, type[Task]] = {
     kind.kind: kind
     for kind in (
-        Pick, Lift, Place, Stack, Sort, Unload, Retrieve, Chain, Rearrange, Push, Beside, Open, Close, Carry, HandOver,
+        Pick,
+        Lift,
+        Place,
+        Stack,
+        Sort,
+        Unload,
+        Retrieve,
+        Chain,
+        Rearrange,
+        Push,
+        Beside,
+        Open,
+        Close,
+        Carry,
+        HandOver,
     )
 }
 """Every kind of task by the first word of its specification."""

@@ -40,7 +40,11 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
     below = {rel.child: rel for rel in plan.relations if rel.supports}
     rows = _rows(drawers)
     called = {one.name: f"{row} drawer" for one in drawers if (row := _row_said(one)) is not None}
-    if called and len({*called.values()}) == len(called) and not {*called.values()} & {obj.name for obj in plan.objects}:
+    if (
+        called
+        and len({*called.values()}) == len(called)
+        and not {*called.values()} & {obj.name for obj in plan.objects}
+    ):
         plan = _renamed(plan, called)
         drawers = [obj for obj in plan.objects if obj.noun in DRAWERS]
         rows = {called.get(name, name): row for name, row in rows.items()}
@@ -54,7 +58,9 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
         named = " and ".join(dict.fromkeys(f'"{one.phrase}"' for one in drawers))
         notes.append(f"{named}: what it is in is not said; a cabinet is made.")
     elif known is None or known.noun != DRAWER_CABINET:
-        notes.append(f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)} slides.')
+        notes.append(
+            f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)} slides.'
+        )
     notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
               for one in drawers for word in ("left", "right") if word in one.phrase.lower().split()]  # fmt: skip
     own = {one.name for one in drawers}
@@ -76,9 +82,7 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
             objects.append(obj)
         elif obj.name == drawers[0].name:
             objects += [*([cabinet] if known is None else []), *made]
-    return replace(
-        plan, objects=tuple(objects), relations=tuple(dict.fromkeys(relations)), notes=(*plan.notes, *notes)
-    )
+    return replace(plan, objects=tuple(objects), relations=tuple(dict.fromkeys(relations)), notes=(*plan.notes, *notes))
 
 
 def _cabinet(plan: ScenePlan, drawers: list[PlannedObject], said: str) -> PlannedObject:

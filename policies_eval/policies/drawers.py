@@ -20,6 +20,9 @@ Actions = Iterator[NDArray[np.float32]]
 NEAR, EXACT = 0.02, 0.006
 """Errors at which a hand is there on the way, and where it matters [m]."""
 
+STEP, STRAIGHT = 0.02, 0.008
+"""The hand comes down by so much at a time, and so straight [m]."""
+
 PATIENCE = 70
 """Control steps after which a move is over anyway."""
 
@@ -56,8 +59,10 @@ def move_drawer(env: Any, slide: Slide) -> Actions:
     high = planner.passing(hand, pull.above, AROUND, "") + gripper.tip + PASSING
     high = max(high, float(pull.above[2]))
     yield from go(np.array([*hand[:2], max(high, float(hand[2]))]), now, NEAR)
-    yield from go(np.array([*pull.above[:2], high]), pull.rotation, NEAR)
-    yield from go(pull.above, pull.rotation, EXACT)
+    # What comes down beside its gap is stopped by the top of the cabinet.
+    yield from go(np.array([*pull.above[:2], high]), pull.rotation, EXACT)
+    for height in np.arange(high, float(pull.start[2]), -STEP):
+        yield from go(np.array([*pull.start[:2], height]), pull.rotation, STRAIGHT)
     yield from go(pull.start, pull.rotation, EXACT)
     yield from _along(env, servo, slide.name, pull)
     hand = state.hand.copy()

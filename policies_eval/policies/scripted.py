@@ -164,7 +164,10 @@ class ScriptedPolicy:
         """Until the drawer is where it should be; what was done is not begun again where it is undone later."""
         action = next(self._script, None)
         if action is None:
-            self._stay, self._rotation = self._env.simulation.state.hand.copy(), self._env.simulation.state.hand_rotation
+            self._stay, self._rotation = (
+                self._env.simulation.state.hand.copy(),
+                self._env.simulation.state.hand_rotation,
+            )
             self._enter("slid")
         return action
 

@@ -62,7 +62,9 @@ def drawer_cabinet(style: Style) -> Build:
 def _drawer(style: Style) -> Build:
     x, y, z = BOX
     wall, floor, front = 0.012, 0.008, -y / 2
-    bar = span((-_HALF_GRIP, _HALF_GRIP), (front - REACH - BAR, front - REACH), (GRIP * z - BAR / 2, GRIP * z + BAR / 2))
+    bar = span(
+        (-_HALF_GRIP, _HALF_GRIP), (front - REACH - BAR, front - REACH), (GRIP * z - BAR / 2, GRIP * z + BAR / 2)
+    )
     # The back is high as well: under the row's ceiling it keeps the drawer level when something is put in.
     panels = [span((-x / 2, x / 2), (at, at + wall), (0.0, z)) for at in (front, y / 2 - wall)]
     posts = [

@@ -29,7 +29,9 @@ def drawer_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at in (at for at, word in enumerate(words) if word == "drawer"):
         row = _COUNTED.get((words[at - 1], *words[at + 1 : at + 4]))
         if row:
-            return drawer_of([*tokens[: at - 1], replace(tokens[at - 1], text=row), tokens[at], *tokens[at + 4 :]], nouns)
+            return drawer_of(
+                [*tokens[: at - 1], replace(tokens[at - 1], text=row), tokens[at], *tokens[at + 4 :]], nouns
+            )
         behind = next((n for n in range(at + 2, min(at + _FAR, len(words))) if _is_cabinet(words, n, nouns)), 0)
         if behind and words[at + 1] in ("of", "in") and words[at + 2] in ("the", "a", "this", "that"):
             last = behind + (words[behind + 1] in ("cabinet", "table"))
