@@ -98,8 +98,8 @@ class Having(Judging):
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
                     cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
-            elif apart and self._is_pronoun(fact[3]) and self._link(fact[1]).kind in LATERAL_KINDS:
-                # "A cup on a box, with a ball next to them"
+            elif fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._beside_them(fact):
+                # "A cup on a box, with a ball next to them (on the left of them)"
                 placed |= set(fact[2])
                 cost += 0.2
             facts.append(fact)
@@ -203,6 +203,10 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _beside_them(self, fact: tuple) -> bool:
+        link = self._link(fact[1])
+        return self._is_pronoun(fact[3]) and link.kind in LATERAL_KINDS and link.manner in ("place", "half")
 
     def _set_down(self, at: int) -> bool:
         """Whether what chunk `at` has stands in or on something: "with a pen on it"."""
