@@ -193,8 +193,8 @@ class Cutter(Qualities):
         if phrase.kind == "pieces" and cloth and not phrase.determined and last is not None and last.text == "on":
             # "A cup on white linen": what it lies on is no thing of its own.
             phrase = replace(phrase, kind="background")
-        if phrase.kind == "unknown" and self._is_had(phrase):
-            phrase = replace(phrase, kind="part", said=phrase.head)
+        if self._is_had(phrase, after):
+            phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         shown = phrase.kind == "part" and self._last is not None and self._last.kind == "have"
