@@ -22,6 +22,9 @@ _OF_LAST = 0.35
 _ENDED = 0.35
 """Cost of having more behind what is said to be in or on the owner."""
 
+_GOES_ON = 0.5
+"""Cost of a vessel having what is listed behind what one thinks of as in it."""
+
 
 class Having(Judging):
     """The rule for what an object has."""
@@ -187,6 +190,7 @@ class Having(Judging):
                 ) / (len(things) * len(owners)) + 0.25 * sum(
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
+        cost += _GOES_ON * self._list_goes_on(link, owner, modifier)
         if any(self._phrase(head).definite and self._likely.is_a(self._noun(head), ON_RIMS) for head in left):
             # "Close the jar with the lid": it is not there yet.
             cost += 0.7
@@ -207,6 +211,16 @@ class Having(Judging):
     def _beside_them(self, fact: tuple) -> bool:
         link = self._link(fact[1])
         return self._is_pronoun(fact[3]) and link.kind in LATERAL_KINDS and link.manner in ("place", "half")
+
+    def _list_goes_on(self, link: Link, owner: str, had: Node) -> bool:
+        """Whether a list goes on behind the first that `owner` is said to have: "a vase with roses, a lamp, a cup"."""
+        vessel = self._likely.hollow(owner) and not self._likely.level(owner)
+        if link.manner != "with" or had.joints[:1] != "," or not vessel:
+            return False
+        first, *others = had.heads
+        costs = [self._likely.having(link, owner, self._noun(head)) for head in others]
+        bare = self._phrase(first).plural and not any(self._phrase(head).plural for head in others)
+        return (max(costs) >= USUAL) + bare + (not had.joints.strip(",")) > 1
 
     def _set_down(self, at: int) -> bool:
         """Whether what chunk `at` has stands in or on something: "with a pen on it"."""
