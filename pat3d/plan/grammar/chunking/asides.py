@@ -108,8 +108,11 @@ class Asides(RelationWords):
             owner = next((c.phrase for c in reversed(before) if c.phrase and c.phrase.kind != "part"), None)
             fixed = owner is not None and self._nouns.of_class(owner.noun, FIXED[phrase.head])
             apart = self._tokens[after + link_at(self._tokens, after)].text in lexicon.PRONOUNS
-            return had and fixed and last.words[0] in ("with", "has", "have", "and") and (
-                not apart or self._on_a_part(after) > 0
+            return (
+                had
+                and fixed
+                and last.words[0] in ("with", "has", "have", "and")
+                and (not apart or self._on_a_part(after) > 0)
             )
         return phrase.kind == "unknown" and had and bool({phrase.head, *singulars(phrase.head)} & HAD)
 

@@ -345,6 +345,18 @@ def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
     return [each for group in dict.fromkeys(item.group for item in items) for each in group.items]
 
 
+def on_each_side(world: World, items: list[Item], *, each: bool) -> list[Item]:
+    """What stands left and right of something where `items` do, on `each` side all of them where it is said so."""
+    group = items[0].group
+    if len(items) == 1:
+        return list(group.items) if len(group.items) == 2 else multiply(world, items, 2)
+    known = group.phrase.definite or group in world.groups[: world.settled]
+    if not each or known or not group.counted or items != group.items:
+        return items
+    world.note(f'"{group.words}": as many on each side, {2 * len(items)} in all.')
+    return multiply(world, items, 2)
+
+
 def forget_count(world: World, group: Group) -> None:
     """The number of `group` is not assumed any more."""
     world.notes = [note for note in world.notes if not note.startswith(f'"{group.words}": ')]
