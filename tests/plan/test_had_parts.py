@@ -76,3 +76,21 @@ def test_a_thing_that_is_a_part_of_its_owner_is_noted(
 )
 def test_the_same_elsewhere_is_a_thing(planner: GrammarPlanner, sentence: str, things: set[str]):
     assert {obj.name for obj in planner.plan(sentence).objects} == things
+
+
+@pytest.mark.parametrize(
+    ("sentence", "beside", "posed"),
+    [
+        ("A sofa with a floor lamp on its side", {"floor lamp next_to sofa"}, False),
+        ("Two stools. One has a bin on its side, the other a hat on it.", {"bin next_to stool 1"}, False),
+        ("A bench has a potted plant on its side.", {"potted plant next_to bench"}, False),
+        ("A table with a mug on its side", set(), True),
+        ("A crate with a bottle on its side", set(), True),
+    ],
+)
+def test_what_a_chair_has_on_its_side_stands_beside_it(
+    planner: GrammarPlanner, sentence: str, beside: set[str], posed: bool
+):
+    plan = planner.plan(sentence)
+    assert {str(relation) for relation in plan.relations if not relation.supports} == beside
+    assert bool(plan.postures) == posed

@@ -24,6 +24,7 @@ from pat3d.plan.grammar.words.modifiers import (
     is_modifier,
     read_modifiers,
 )
+from pat3d.plan.grammar.words.postures import token_text
 from pat3d.plan.grammar.words.senses import SENSES, sense
 from pat3d.plan.grammar.words.stand_ins import STAND_INS
 
@@ -293,6 +294,9 @@ class Cutter(Qualities):
             said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
         elif self._last is not None and self._last.kind == "verb":
             return self._add("quality", modifiers=said)
+        if word == token_text("on its side") and self._stands_by_owner():
+            self._made.chunks.append(Chunk(kind="rel", text="beside", words=("beside",), link=LINKS["beside",]))
+            return self._pronoun("it")
         self._at += 2 if self._tokens[after].text == "apart" else 1
         last = self._last
         if last is not None and last.phrase is not None and last.phrase.head in ("it", "them") and not is_measure(word):
@@ -305,6 +309,16 @@ class Cutter(Qualities):
             return None
         self._ahead = self._ahead.marked_as(said)
         return None
+
+    def _stands_by_owner(self) -> bool:
+        """Whether "on its side" is of the chair in "a chair has a plant on its side", and no lying plant's."""
+        owner, have, had = [None, None, None, *self._made.chunks][-3:]
+        if owner is None or have is None or had is None or have.link is None or have.link.manner != "with":
+            return False
+        wide = owner.phrase is not None and self._nouns.of_class(owner.phrase.noun, lexicon.FLOOR)
+        one = owner.phrase is not None and owner.phrase.kind in ("pieces", "pronoun")
+        stands = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
+        return (wide or one) and had.phrase is not None and self._nouns.of_class(had.phrase.noun, stands)
 
     def _drop(self) -> None:
         """Leave out the next word, of which a note speaks where it means something."""
