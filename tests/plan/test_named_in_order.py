@@ -263,3 +263,18 @@ def test_a_grid_is_so_many_by_so_many():
 )  # fmt: skip
 def test_what_is_in_the_first_and_the_next_is_in_those_that_were_counted(prompt: str, relations: set[str]):
     assert {str(relation) for relation in GrammarPlanner().plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("Two jars: one with a pen, one with a nut, both on a bench",
+         {"pen in jar 1", "nut in jar 2", "jar 1 on bench", "jar 2 on bench"}),
+        ("Two crates, one with a ball, the other with a shoe, both on a bench",
+         {"ball in crate 1", "shoe in crate 2", "crate 1 on bench", "crate 2 on bench"}),
+        ("Two trays and three spoons, one of the spoons in a jar", {"spoon 1 in jar"}),
+        ("A mug and two lemons, one of the lemons on a tray", {"lemon 1 on tray"}),
+    ],
+)  # fmt: skip
+def test_what_is_told_last_is_of_those_it_names(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in GrammarPlanner().plan(prompt).relations} == relations

@@ -43,6 +43,7 @@ def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     That "one of the figs is dry" is told behind: set off it would end the list, and the pear be somewhere else.
     """
+    tokens = _told_last(tokens)
     words = [token.text for token in tokens]
     for at in range(2, len(words) - 7):
         which = next((n for n in (at + 1, at + 2) if words[n : n + 2] == ["of", "which"]), 0) if words[at] == "," else 0
@@ -59,6 +60,23 @@ def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         said = [*(replace(each, start=tokens[at + 1].start, end=tokens[verb + 1].end) for each in apart), stop]
         return [*tokens[:at], *tokens[verb + 3 : end], stop, *said, *tokens[end + 1 :]]
     return list(tokens)
+
+
+def _told_last(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "two jars, one with figs, one with nuts, both on a tray" as "... nuts. Both are on a tray".
+
+    So is "two jars and two figs, one of the figs on a tray", which would be of them all.
+    """
+    words = [token.text for token in tokens]
+    for at in (n for n in range(4, len(words) - 3) if words[n] == ","):
+        start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
+        stop = next((n for n in range(at, len(words)) if words[n] == "."), len(words))
+        some = words[at + 1 : at + 4] == ["one", "of", "the"] and words[at + 4] in words[start:at]
+        end = at + 2 if words[at + 1] == "both" and "one" in words[start:at] else at + 5 if some else stop
+        if end < stop and words[end] != "of" and link_at(tokens, end) and not {",", "and"} & {*words[end:stop]}:
+            verb = replace(tokens[at], text="is" if some else "are", mark=False)
+            return [*tokens[:at], replace(tokens[at], text="."), *tokens[at + 1 : end], verb, *tokens[end:]]
+    return tokens
 
 
 def _of_them(tokens: list[Token], nouns: Nouns) -> list[Token]:
