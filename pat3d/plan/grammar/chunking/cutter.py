@@ -45,6 +45,7 @@ _EMPTY = frozenset({
 """Words that mean nothing by themselves."""
 """Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
+_STANDING = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
 
 
 class Cutter(Qualities):
@@ -294,11 +295,13 @@ class Cutter(Qualities):
             said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
         elif self._last is not None and self._last.kind == "verb":
             return self._add("quality", modifiers=said)
-        if word == token_text("on its side") and self._stands_by_owner():
+        last, had = self._last, [piece.link.manner for piece in self._made.chunks[-2:-1] if piece.link is not None]
+        stands = last is not None and last.phrase is not None and self._nouns.of_class(last.phrase.noun, _STANDING)
+        if word == token_text("on its side") and had == ["with"] and stands:
+            # "A chair has a plant on its side"
             self._made.chunks.append(Chunk(kind="rel", text="beside", words=("beside",), link=LINKS["beside",]))
             return self._pronoun("it")
         self._at += 2 if self._tokens[after].text == "apart" else 1
-        last = self._last
         if last is not None and last.phrase is not None and last.phrase.head in ("it", "them") and not is_measure(word):
             # "Place it upside down in the box" is not said of the box.
             token = self._tokens[after - 1]
@@ -309,16 +312,6 @@ class Cutter(Qualities):
             return None
         self._ahead = self._ahead.marked_as(said)
         return None
-
-    def _stands_by_owner(self) -> bool:
-        """Whether "on its side" is of the chair in "a chair has a plant on its side", and no lying plant's."""
-        owner, have, had = [None, None, None, *self._made.chunks][-3:]
-        if owner is None or have is None or had is None or have.link is None or have.link.manner != "with":
-            return False
-        wide = owner.phrase is not None and self._nouns.of_class(owner.phrase.noun, lexicon.FLOOR)
-        one = owner.phrase is not None and owner.phrase.kind in ("pieces", "pronoun")
-        stands = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
-        return (wide or one) and had.phrase is not None and self._nouns.of_class(had.phrase.noun, stands)
 
     def _drop(self) -> None:
         """Leave out the next word, of which a note speaks where it means something."""

@@ -123,7 +123,8 @@ class Listing(Goals):
             cost += 1.2
         elif rest.joints == "&" and not {"finite", "placed"} & rest.flags:
             # "A book (is on a sofa) next to a pillow and a blanket": next to both.
-            cost += _DANGLES * self._ends_beside(first.start, rest.start)
+            told = "finite" in first.flags or not self._moving
+            cost += _DANGLES * (told and self._ends_beside(first.start, rest.start))
         if mark in "&," and self._ends_what_is_had(first, rest):
             # "A board lies on a bench with a knife and a lemon on it (and a cup beside it)": both are on the board.
             cost += _HAD_TOGETHER
@@ -144,6 +145,10 @@ class Listing(Goals):
         cost += _DANGLES * (second.joints == "&" and not {"finite", "placed"} & second.flags
                             and self._ends_beside(first.start, second.start))  # fmt: skip
         return cost + 0.2 * (fronted and not {"placed", "finite"} & second.flags)
+
+    def _two_landmarks(self, objects: Node) -> bool:
+        things = all(self._phrase(head).kind in ("object", "unknown") for head in objects.heads)
+        return things and objects.joints == "&" and not self._moving
 
     def _ends_beside(self, start: int, end: int) -> bool:
         """Whether the chunks from `start` to `end` end with a landmark: "next to a bowl (of nuts)"."""

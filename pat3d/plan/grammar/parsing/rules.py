@@ -67,7 +67,7 @@ class Grammar(Listing):
 
         With `putting` the verb is one of putting, behind which "on" says where to.
         """
-        self._putting = putting
+        self._moving, self._putting = moving, putting
         leaves = self._leaves()
         if not moving:
             return parse(leaves, self._rules, self._unary, ("L", "S"))
@@ -112,7 +112,7 @@ class Grammar(Listing):
         ring = ring or (backed and objects.joints == "&" and not placed)
         if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
-            cost += 0.9 if said.kind in SUPPORT_KINDS else 0.35 if objects.joints == "&" else 0.5
+            cost += 0.9 if said.kind in SUPPORT_KINDS else 0.35 if self._two_landmarks(objects) else 0.5
             # "A keyboard in front of it and a mouse": the mouse is one more thing.
             cost += 0.6 * (self._is_pronoun(objects.heads[:1]) and not self._definite(objects.heads[1:]))
         if said.kind in SUPPORT_KINDS and said.manner == "place" and len(objects.heads) == 1:
@@ -223,9 +223,6 @@ class Grammar(Listing):
         if kind == "link" and self._link(at).inverse:
             # "a tray with a pot and a cup with a spoon": the cup has it.
             cost += 0.6 * self._has_again(named, modifier) + 0.3 * self._passes_over(named, modifier)
-            # "A ball next to a box and a plate with a fork": the plate has it.
-            beside = (fact for fact in named.facts if fact[0] == "rel" and len(fact[3]) > 1)
-            cost += 0.3 * (modifier.cat == "M" and any(at - 1 == fact[3][-1] for fact in beside))
             flags |= {"having"}
         if kind != "link" or not self._link(at).inverse:
             flags |= {"placed"}

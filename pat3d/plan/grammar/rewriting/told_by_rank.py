@@ -49,7 +49,7 @@ def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str]
 
 
 def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "in the first, a fig; in the second, a pen" as "in the first box is a fig; in the second box ..."."""
+    """`tokens` with "in the first, a fig; in the second, a pen" as "in the first box is a fig; in the second ..."."""
     words, found = [token.text for token in tokens], list[tuple[int, int]]()
     for at in range(2, len(words) - 5):
         led = (tokens[at - 1].mark or words[at - 1] == "and") and words[at] in ("in", "on", "inside")
@@ -59,11 +59,10 @@ def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if led and words[at + 1] == "the" and end > at + 2 and words[said] in ("a", "an", *lexicon.NUMBERS):
             found.append((end - side // 2, said))
     counted = counted_in(words, found[0][0] - 4, nouns) if len(found) > 1 else None
-    made = list(tokens)
-    for end, said in reversed(found) if counted is not None and counted[0] <= len(ORDINALS) else ():
+    made, name = list(tokens), counted[1].split() if counted is not None else []
+    for end, said in reversed(found) if name else ():
         verb = "is" if words[said] in ("a", "an", "one") else "are"
-        told = [replace(tokens[said - 1], text=word, mark=False) for word in (*counted[1].split(), verb)]
-        made[end:said] = told
+        made[end:said] = [replace(tokens[said - 1], text=word, mark=False) for word in (*name, verb)]
     return made
 
 
