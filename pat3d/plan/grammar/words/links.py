@@ -175,9 +175,7 @@ def _table() -> dict[tuple[str, ...], Link]:
         "at opposite sides of", "on the opposite sides of",
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
-    for which in _BOTH_ENDS:
-        said = "each" if "each" in which else ""
-        add(Link(manner="sides", kind="on", said=said), f"on {which} of", f"at {which} of")
+    add(Link(manner="sides", kind="on"), *(f"{word} {which} of" for word in ("on", "at") for which in _BOTH_ENDS))
     add(Link(manner="sides", kind="next_to", finite=True), "flank", "flanks")
     add(Link(kind="in", finite=True), "share", "shares")
     add(Link(kind="in", finite=True), "fill", "fills")
