@@ -15,8 +15,8 @@ PLANNER = GrammarPlanner()
             ("on the cutting board", "are on the counter"),
         ),
         (
-            "A drill lying flat next to a battery and a charger on a workbench.",
-            ("next to the battery.", "next to the battery and the charger"),
+            "A kettle next to a plate of buns and a tea towel.",
+            ("next to the plate and the tea towel", "Three buns and a tea towel are on the plate"),
         ),
     ],
 )

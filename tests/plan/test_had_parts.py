@@ -44,3 +44,53 @@ def test_a_part_by_itself_is_nothing_that_can_be_made(planner: GrammarPlanner, s
 
 def test_the_colour_of_a_part_that_is_said_of_the_whole_is_noted(planner: GrammarPlanner):
     assert any("zipper" in note for note in planner.plan("The zipper of the bag is red.").notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "things", "part"),
+    [
+        ("A trolley with wheels on it", {"trolley"}, "wheels"),
+        ("A suitcase has four wheels and stands next to a bench.", {"suitcase", "bench"}, "four wheels"),
+        ("A typewriter with white keys on it on a bench", {"typewriter", "bench"}, "keys"),
+        ("A banjo with strings on it", {"banjo"}, "strings"),
+        ("A tablet with a screen on it", {"tablet"}, "a screen"),
+        ("A marker with a cap on it", {"marker"}, "a cap"),
+    ],
+)
+def test_a_thing_that_is_a_part_of_its_owner_is_noted(
+    planner: GrammarPlanner, sentence: str, things: set[str], part: str
+):
+    plan = planner.plan(sentence)
+    assert {obj.name for obj in plan.objects} == things
+    assert any(part in note for note in plan.notes)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "things"),
+    [
+        ("A suitcase with a wheel next to it", {"suitcase", "wheel"}),
+        ("A shelf with a wheel on it", {"shelf", "wheel"}),
+        ("A trolley holding two wheels", {"trolley", "wheel 1", "wheel 2"}),
+        ("A bench with a tablet and a screen on it", {"bench", "tablet", "screen"}),
+    ],
+)
+def test_the_same_elsewhere_is_a_thing(planner: GrammarPlanner, sentence: str, things: set[str]):
+    assert {obj.name for obj in planner.plan(sentence).objects} == things
+
+
+@pytest.mark.parametrize(
+    ("sentence", "beside", "posed"),
+    [
+        ("A sofa with a floor lamp on its side", {"floor lamp next_to sofa"}, False),
+        ("Two stools. One has a bin on its side, the other a hat on it.", {"bin next_to stool 1"}, False),
+        ("A bench has a potted plant on its side.", {"potted plant next_to bench"}, False),
+        ("A table with a mug on its side", set(), True),
+        ("A crate with a bottle on its side", set(), True),
+    ],
+)
+def test_what_a_chair_has_on_its_side_stands_beside_it(
+    planner: GrammarPlanner, sentence: str, beside: set[str], posed: bool
+):
+    plan = planner.plan(sentence)
+    assert {str(relation) for relation in plan.relations if not relation.supports} == beside
+    assert bool(plan.postures) == posed

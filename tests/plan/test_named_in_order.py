@@ -248,3 +248,33 @@ def test_both_halves_are_of_the_whole(prompt: str, colours: dict[str, int]):
 def test_a_grid_is_so_many_by_so_many():
     assert len(PLANNER.plan("A three by two grid of cups on a table.").objects) == 7
     assert len(PLANNER.plan("A 3 by 3 grid of blocks.").objects) == 9
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("Three jars: in the first, a pen; in the second, a spoon; in the third, a brush",
+         {"pen in jar 1", "spoon in jar 2", "brush in jar 3"}),
+        ("Three trays. On the first is a bun; on the second is a lemon; on the third is an egg.",
+         {"bun on tray 1", "lemon on tray 2", "egg on tray 3"}),
+        ("Two crates: in the first, two balls; in the second, a shoe",
+         {"ball 1 in crate 1", "ball 2 in crate 1", "shoe in crate 2"}),
+    ],
+)  # fmt: skip
+def test_what_is_in_the_first_and_the_next_is_in_those_that_were_counted(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in GrammarPlanner().plan(prompt).relations} == relations
+
+
+@pytest.mark.parametrize(
+    ("prompt", "relations"),
+    [
+        ("Two jars: one with a pen, one with a nut, both on a bench",
+         {"pen in jar 1", "nut in jar 2", "jar 1 on bench", "jar 2 on bench"}),
+        ("Two crates, one with a ball, the other with a shoe, both on a bench",
+         {"ball in crate 1", "shoe in crate 2", "crate 1 on bench", "crate 2 on bench"}),
+        ("Two trays and three spoons, one of the spoons in a jar", {"spoon 1 in jar"}),
+        ("A mug and two lemons, one of the lemons on a tray", {"lemon 1 on tray"}),
+    ],
+)  # fmt: skip
+def test_what_is_told_last_is_of_those_it_names(prompt: str, relations: set[str]):
+    assert {str(relation) for relation in GrammarPlanner().plan(prompt).relations} == relations

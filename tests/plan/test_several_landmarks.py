@@ -110,3 +110,26 @@ def test_a_number_behind_and_is_of_further_ones(prompt):
 def test_shares_of_a_number_are_no_further_ones():
     plan = read("Seven lemons: five in a basket and two on a saucer.")
     assert sum(obj.noun == "lemon" for obj in plan.objects) == 7
+
+
+@pytest.mark.parametrize(
+    ("prompt", "left", "right"),
+    [
+        ("Two stools on each side of a bench", 2, 2),
+        ("There are three stools on each side of the bench.", 3, 3),
+        ("A kettle with two jars on each side", 2, 2),
+        ("On each side of the kettle are two jars.", 2, 2),
+        ("Two jars, one on each side of a kettle", 1, 1),
+        ("Two jars on either side of a kettle", 1, 1),
+        ("A bench with four stools, two on each side", 2, 2),
+        ("Two jars. They are on each side of a kettle.", 1, 1),
+    ],
+)
+def test_each_side_has_as_many(prompt: str, left: int, right: int):
+    plan = read(prompt)
+    assert (len(related(plan, "left_of")), len(related(plan, "right_of"))) == (left, right)
+    assert len([obj for obj in plan.objects if obj.noun in ("stool", "jar")]) == left + right
+
+
+def test_two_on_each_side_are_noted_to_be_four():
+    assert '"Two stools": as many on each side, 4 in all.' in read("Two stools on each side of a bench").notes

@@ -471,3 +471,20 @@ def test_what_a_thing_is_out_of_is_not_there(
     prompt: str, objects: str, relations: str, task: str | None, notes: list[str]
 ):
     assert told(PLANNER.plan(prompt)) == (objects, relations, task, notes)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "nouns"),
+    [
+        ("A cup of tea on a bench. A spoon is next to the tea.", ["bench", "spoon", "teacup"]),
+        ("A glass of juice and a bun behind the juice", ["bun", "glass"]),
+        ("A soup bowl and a spoon left of the soup", ["bowl", "spoon"]),
+        ("A honey jar beside a lamp. A bun is in front of the honey.", ["bun", "jam jar", "lamp"]),
+    ],
+)
+def test_what_a_vessel_is_full_of_stands_for_the_vessel(prompt: str, nouns: list[str]):
+    plan = GrammarPlanner().plan(prompt)
+    assert sorted(obj.noun for obj in plan.objects) == nouns
+    beside = [each for each in plan.relations if not each.supports]
+    assert len(beside) == (2 if "beside" in prompt else 1)
+    assert not any("is made as" in note for note in plan.notes)

@@ -22,6 +22,7 @@ from pat3d.plan.grammar.meaning.contradictions import refuse_both_sides
 from pat3d.plan.grammar.meaning.ellipsis import completed
 from pat3d.plan.grammar.meaning.finish import finish
 from pat3d.plan.grammar.meaning.interpret import Interpreter
+from pat3d.plan.grammar.meaning.likes import vessels_meant
 from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.tasks import put_otherwise, task_of
 from pat3d.plan.grammar.meaning.world import World
@@ -344,6 +345,7 @@ class GrammarPlanner(Sparing):
         sentence = Cutter(text, clause.tokens, self._nouns, company).cut()
         known = [group.phrase for group in world.groups if not group.replaced]
         chunks = completed(trimmed(sentence.chunks), self._nouns, known, sentence.doubts)
+        chunks = chunks if clause.manner is not None else vessels_meant(chunks, known)
         world.hear(sentence)
         for word in sentence.unread:
             world.note(_CHOICE if word == "or" else f'not modelled: "{word}"')

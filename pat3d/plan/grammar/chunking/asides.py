@@ -14,7 +14,7 @@ from pat3d.plan.grammar.words.left_out import quoted
 from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.measures import is_measure
 from pat3d.plan.grammar.words.modifiers import Modifiers, telling
-from pat3d.plan.grammar.words.parts import HAD
+from pat3d.plan.grammar.words.parts import FIXED, HAD
 from pat3d.plan.grammar.words.shapes import refuse, shape_said
 from pat3d.plan.grammar.words.unmade import base_verb
 
@@ -98,13 +98,23 @@ class Asides(RelationWords):
         read = self._phrases.read(self._at + 1 + size) if size else None
         return read is not None and self._leave(read[1] - self._at)
 
-    def _is_had(self, phrase: Phrase) -> bool:
+    def _is_had(self, phrase: Phrase, after: int) -> bool:
         """Whether `phrase` is a part of what is said to have it: "a belt with a strap and a polished buckle"."""
         *before, last = [Chunk(kind="joint"), *self._made.chunks]
         listed = last.kind == "joint" and bool(before) and before[-1].phrase is not None
         # "A jar of feathers" holds them.
         had = (last.kind == "have" and "of" not in last.words) or (listed and before[-1].named.kind == "part")
-        return had and bool({phrase.head, *singulars(phrase.head)} & HAD)
+        if phrase.kind == "object" and phrase.head in FIXED:
+            owner = next((c.phrase for c in reversed(before) if c.phrase and c.phrase.kind != "part"), None)
+            fixed = owner is not None and self._nouns.of_class(owner.noun, FIXED[phrase.head])
+            apart = self._tokens[after + link_at(self._tokens, after)].text in lexicon.PRONOUNS
+            return (
+                had
+                and fixed
+                and last.words[0] in ("with", "has", "have", "and")
+                and (not apart or self._on_a_part(after) > 0)
+            )
+        return phrase.kind == "unknown" and had and bool({phrase.head, *singulars(phrase.head)} & HAD)
 
     def _to_mark(self) -> int:
         """Tokens up to the next mark."""

@@ -24,6 +24,7 @@ from pat3d.plan.grammar.words.modifiers import (
     is_modifier,
     read_modifiers,
 )
+from pat3d.plan.grammar.words.postures import token_text
 from pat3d.plan.grammar.words.senses import SENSES, sense
 from pat3d.plan.grammar.words.stand_ins import STAND_INS
 
@@ -44,6 +45,7 @@ _EMPTY = frozenset({
 """Words that mean nothing by themselves."""
 """Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
+_STANDING = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
 
 
 class Cutter(Qualities):
@@ -193,8 +195,8 @@ class Cutter(Qualities):
         if phrase.kind == "pieces" and cloth and not phrase.determined and last is not None and last.text == "on":
             # "A cup on white linen": what it lies on is no thing of its own.
             phrase = replace(phrase, kind="background")
-        if phrase.kind == "unknown" and self._is_had(phrase):
-            phrase = replace(phrase, kind="part", said=phrase.head)
+        if self._is_had(phrase, after):
+            phrase = replace(phrase, kind="part", said=phrase.head, noun="", cycle=())
         if phrase.kind in ("object", "unknown"):
             phrase, self._ahead = replace(phrase, modifiers=phrase.modifiers.marked_as(self._ahead)), NO_MODIFIERS
         shown = phrase.kind == "part" and self._last is not None and self._last.kind == "have"
@@ -293,8 +295,13 @@ class Cutter(Qualities):
             said = Modifiers(measures=(Measure(said=said.measures[0].said, distance=True),))
         elif self._last is not None and self._last.kind == "verb":
             return self._add("quality", modifiers=said)
+        last, had = self._last, [piece.link.manner for piece in self._made.chunks[-2:-1] if piece.link is not None]
+        stands = last is not None and last.phrase is not None and self._nouns.of_class(last.phrase.noun, _STANDING)
+        if word == token_text("on its side") and had == ["with"] and stands:
+            # "A chair has a plant on its side"
+            self._made.chunks.append(Chunk(kind="rel", text="beside", words=("beside",), link=LINKS["beside",]))
+            return self._pronoun("it")
         self._at += 2 if self._tokens[after].text == "apart" else 1
-        last = self._last
         if last is not None and last.phrase is not None and last.phrase.head in ("it", "them") and not is_measure(word):
             # "Place it upside down in the box" is not said of the box.
             token = self._tokens[after - 1]

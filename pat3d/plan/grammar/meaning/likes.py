@@ -21,6 +21,7 @@ SHAPES = lexicon.HONOURED - {
     "lit", "burning", "flickering", "landscape", "striped", "open", "opened", "closed", "shut"
 }  # fmt: skip
 """Adjectives of measure that a thing is told from its like by."""
+_VESSELS = ("cup", "mug", "glass", "bowl", "jar", "bottle", "box", "can", "carton", "pot", "tin")
 _COMPARED = frozenset({"larger", "bigger", "smaller", "taller", "shorter"})
 
 
@@ -42,6 +43,29 @@ def likes_named(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase]
         if n is not None and phrase.definite:
             made[n] = replace(made[n], phrase=replace(one, modifiers=measured(one.modifiers)))
     return made
+
+
+def vessels_meant(chunks: Sequence[Chunk], known: Collection[Phrase]) -> list[Chunk]:
+    """`chunks` with "the coffee" as the cup where a cup of coffee or a coffee cup was named, and no coffee besides."""
+    made = list(chunks)
+    for at, piece in enumerate(chunks):
+        phrase = piece.phrase
+        if phrase is None or phrase.words.lower() != f"the {phrase.head}" or phrase.head not in lexicon.SUBSTANCES:
+            continue
+        inside = any(one.link is not None and one.link.kind == "in" for one in chunks[at + 1 : at + 3])
+        before = [*known, *(one.phrase for one in made[:at] if one.phrase is not None)]
+        itself = any(one.noun == phrase.noun and one.substance != phrase.head for one in before if phrase.noun)
+        held = [one for one in before if one.kind == "object" and not one.several and _holds(one, phrase.head)]
+        if held and not itself and not inside and len({one.noun for one in held}) == 1:
+            meant = replace(held[-1], words=phrase.words, definite=True, number=phrase.number)
+            made[at] = replace(piece, phrase=meant)
+    return made
+
+
+def _holds(vessel: Phrase, stuff: str) -> bool:
+    """Whether `vessel` is called by the `stuff` in it: "a cup of coffee", "a coffee cup"."""
+    named = (f"{one} {vessel.said.split()[-1]}" for one in (stuff, stuff.removesuffix("s")))
+    return vessel.substance == stuff or (vessel.said.endswith(_VESSELS) and vessel.said in named)
 
 
 def with_noun(phrase: Phrase, owner: Phrase, nouns: Nouns) -> Phrase:

@@ -110,8 +110,9 @@ class Maker:
                 continue
             if word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word):
                 continue
-            if word in (phrase.said or phrase.noun).split():
-                continue
+            full = self._nouns.match([word, *phrase.said.split()]) if word in lexicon.SUBSTANCES else None
+            if word in (phrase.said or phrase.noun).split() or (full and full.noun == phrase.noun):
+                continue  # "A paper shredder" has no other name.
             kind = self._nouns.match([word]) is not None or word in lexicon.SUBSTANCES
             whole = [
                 colour
@@ -346,6 +347,17 @@ def multiply(world: World, items: list[Item], factor: int) -> list[Item]:
                 world.place(more, edges[0].kind, group.items[len(before) :], edges[0].weak)
     check_total(world)
     return [each for group in dict.fromkeys(item.group for item in items) for each in group.items]
+
+
+def on_each_side(world: World, items: list[Item], *, each: bool) -> list[Item]:
+    """What stands left and right of something where `items` do, on `each` side as many where it is said so."""
+    group = items[0].group
+    if len(items) == 1:
+        return list(group.items) if len(group.items) == 2 else multiply(world, items, 2)
+    if group.phrase.definite or group in world.groups[: world.settled] or not each or items != group.items:
+        return items
+    world.note(f'"{group.words}": as many on each side, {2 * len(items)} in all.')
+    return multiply(world, items, 2)
 
 
 def forget_count(world: World, group: Group) -> None:

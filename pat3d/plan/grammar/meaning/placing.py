@@ -107,7 +107,8 @@ class Placing(Forming):
                 parents = [below]
             if parents:
                 row = parents if parents[0].group.rows or len({item.group for item in parents}) > 1 else parents[:1]
-                self._relating.both_sides(children, row, on_it=side == "ends")
+                each = "each" in chunk.words and some.kind == "object"
+                self._relating.both_sides(children, row, on_it=side == "ends", each=each)
             return
         told = self._landmark_of(chunk, owners, children) or (
             [] if owners or begun else self._alone_on(chunk, children)

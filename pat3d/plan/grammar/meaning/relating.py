@@ -11,7 +11,7 @@ from pat3d.plan.grammar.meaning.apart import set_apart
 from pat3d.plan.grammar.meaning.attached import bears, crowding, slip_under, with_its_carrier
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
-from pat3d.plan.grammar.meaning.objects import forget_count, multiply, recount
+from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import DRAPED, Link
@@ -72,7 +72,7 @@ class Relating:
             self._under(children, parents, said)
         elif link.manner == "sides":
             self.landmark = (parents, False)
-            self.both_sides(children, parents, on_it=link.kind == "on")
+            self.both_sides(children, parents, on_it=link.kind == "on", each=link.said == "each")
         elif link.manner == "between":
             self._between(children, parents)
         elif link.manner == "half":
@@ -310,8 +310,8 @@ class Relating:
                            if words != parent.group.words)  # fmt: skip
             world.arrange("under", children, parents, f"{said.format('under')}{rest}; it is placed next to it")
 
-    def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False) -> None:
-        """`children` stand on both sides of `parents`, or at both ends of its top."""
+    def both_sides(self, children: list[Item], parents: list[Item], *, on_it: bool = False, each: bool = False) -> None:
+        """`children` stand on both sides of `parents`, `each` or together, or at both ends of its top."""
         world = self.world
         children = with_its_carrier(world, children, parents)
         group = children[0].group
@@ -327,8 +327,7 @@ class Relating:
         elif len(children) > 2 and not group.counted:
             recount(world, group, 2)
             children = list(group.items)
-        if len(children) == 1:
-            children = list(group.items) if len(group.items) == 2 else multiply(world, children, 2)
+        children = on_each_side(world, children, each=each)
         if on_it:
             world.place(children, "on", parents)
             said = f'"{group.words}" at the ends of "{parents[0].group.words}"; they are placed on it'

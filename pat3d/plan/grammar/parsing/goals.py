@@ -21,7 +21,7 @@ NO_DETERMINER = 0.9
 class Goals(Having):
     """Rules that only instructions have."""
 
-    _putting = False
+    _moving = _putting = False
     """Whether "on" behind what is moved says where it is to go: "put the cup on the tray"."""
 
     def _goals(self, first: Node, second: Node) -> Node:

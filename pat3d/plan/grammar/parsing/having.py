@@ -70,6 +70,7 @@ class Having(Judging):
                 placed |= set(fact[2])
                 cost += 0.2
             aside = apart and self._link(fact[1]).kind in LATERAL_KINDS
+            halved = fact[0] == "rel" and set(fact[2]) <= set(modifier.heads) and self._link(fact[1]).side is not None
             if aside and all(self._again_named(head, tuple(placed)) for head in fact[3]):
                 # "A monitor with a keyboard in front of it and a mouse beside the keyboard"
                 placed |= set(fact[2])
@@ -98,8 +99,8 @@ class Having(Judging):
                 if len(fact[2]) > 1 and self._link(fact[1]).kind in LATERAL_KINDS:
                     # "A plate with a bun and a cup beside it": the bun is on the plate.
                     cost += 0.7 * self._usually_had(link, self._owner_noun(owners[0]), self._noun(fact[2][0]))
-            elif apart and self._is_pronoun(fact[3]) and self._link(fact[1]).kind in LATERAL_KINDS:
-                # "A cup on a box, with a ball next to them"
+            elif (aside or halved) and self._is_pronoun(fact[3]):
+                # "A cup on a box, with a ball next to them (on the left of them)"
                 placed |= set(fact[2])
                 cost += 0.2
             facts.append(fact)
@@ -187,6 +188,7 @@ class Having(Judging):
                 ) / (len(things) * len(owners)) + 0.25 * sum(
                     self._likely.having(link, self._noun(owners[0]), self._noun(head)) > 1.0 for head in things
                 )
+        cost += 0.5 * self._list_goes_on(link, owner, modifier)
         if any(self._phrase(head).definite and self._likely.is_a(self._noun(head), ON_RIMS) for head in left):
             # "Close the jar with the lid": it is not there yet.
             cost += 0.7
@@ -203,6 +205,16 @@ class Having(Judging):
                 0.0 if self._likely.hollow(self._noun(owners[0])) or self._likely.level(self._noun(owners[0])) else 0.5
             )
         return facts, cost
+
+    def _list_goes_on(self, link: Link, owner: str, had: Node) -> bool:
+        """Whether a list goes on behind the first that `owner` is said to have: "a vase with roses, a lamp, a cup"."""
+        vessel = self._likely.hollow(owner) and not self._likely.level(owner)
+        if link.manner != "with" or had.joints[:1] != "," or not vessel:
+            return False
+        first, *others = had.heads
+        costs = [self._likely.having(link, owner, self._noun(head)) for head in others]
+        bare = self._phrase(first).plural and not any(self._phrase(head).plural for head in others)
+        return (max(costs) >= USUAL) + bare + (not had.joints.strip(",")) > 1
 
     def _set_down(self, at: int) -> bool:
         """Whether what chunk `at` has stands in or on something: "with a pen on it"."""
@@ -250,12 +262,14 @@ class Having(Judging):
     def _passes_over(self, named: Node, modifier: Node) -> bool:
         """Whether `modifier` is said of `named` and stands directly behind a thing that `named` has: "and a jar with".
 
-        "a basket with a nut in it and a plate with a cup on it": the plate has the cup.
+        "a basket with a nut in it and a plate with a cup on it": the plate has the cup; "a ball next to a box and a
+        plate with a fork": the plate has it.
         """
         before = modifier.start - 1
         had = any(fact[0] == "have" and fact[2] == named.heads and before in fact[3] for fact in named.facts)
         placed = any(fact[0] == "rel" and self._link(fact[1]).kind in SUPPORT_KINDS for fact in modifier.facts)
-        return had and placed and modifier.cat == "M" and not modifier.flags & {"finite", "which"}
+        both = any(fact[0] == "rel" and len(fact[3]) > 1 and before == fact[3][-1] for fact in named.facts)
+        return ((had and placed) or both) and modifier.cat == "M" and not modifier.flags & {"finite", "which"}
 
     def _usually_had(self, link: Link, owner: str, child: str) -> bool:
         """Whether one thinks of `child` as on or in `owner` rather than beside it: cake on a plate, but no fork."""

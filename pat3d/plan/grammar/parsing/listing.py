@@ -121,10 +121,10 @@ class Listing(Goals):
         if rest.joints == "&" and "finite" in first.flags - rest.flags and self._definite(rest.heads) and not again:
             # "A ball is near the lamp and the clock": near both.
             cost += 1.2
-        elif rest.joints == "&" and "finite" in first.flags - rest.flags and "placed" not in rest.flags:
-            # "A book is on a sofa next to a pillow and a blanket": next to both.
-            before = self._chunks[rest.start - 2]
-            cost += _DANGLES * (before.kind == "rel" and before.relation.kind in LATERAL_KINDS)
+        elif rest.joints == "&" and not {"finite", "placed"} & rest.flags:
+            # "A book (is on a sofa) next to a pillow and a blanket": next to both.
+            told = "finite" in first.flags or not self._moving
+            cost += _DANGLES * (told and self._ends_beside(first.start, rest.start))
         if mark in "&," and self._ends_what_is_had(first, rest):
             # "A board lies on a bench with a knife and a lemon on it (and a cup beside it)": both are on the board.
             cost += _HAD_TOGETHER
@@ -141,7 +141,21 @@ class Listing(Goals):
         cost += 0.5 * any(self._chunks[at].text == ":" for at in range(first.start, second.start))
         # "On the desk there are two red pens and a blue one, a cup and a jar"
         fronted = any(fact[0] == "front" for fact in first.facts)
+        # "There is a ball next to the box and the cube"
+        cost += _DANGLES * (second.joints == "&" and not {"finite", "placed"} & second.flags
+                            and self._ends_beside(first.start, second.start))  # fmt: skip
         return cost + 0.2 * (fronted and not {"placed", "finite"} & second.flags)
+
+    def _two_landmarks(self, objects: Node) -> bool:
+        things = all(self._phrase(head).kind in ("object", "unknown") for head in objects.heads)
+        return things and objects.joints == "&" and not self._moving
+
+    def _ends_beside(self, start: int, end: int) -> bool:
+        """Whether the chunks from `start` to `end` end with a landmark: "next to a bowl (of nuts)"."""
+        at = end - 2
+        while at > start and self._chunks[at].kind == "have" and self._link(at).manner == "of":
+            at -= 2
+        return at > start and self._chunks[at].kind == "rel" and self._link(at).kind in LATERAL_KINDS
 
     def _formed_alone(self, rest: Node) -> bool:
         """Whether `rest` is one phrase that is said to stand in a row or a ring."""

@@ -67,7 +67,7 @@ class Grammar(Listing):
 
         With `putting` the verb is one of putting, behind which "on" says where to.
         """
-        self._putting = putting
+        self._moving, self._putting = moving, putting
         leaves = self._leaves()
         if not moving:
             return parse(leaves, self._rules, self._unary, ("L", "S"))
@@ -112,7 +112,7 @@ class Grammar(Listing):
         ring = ring or (backed and objects.joints == "&" and not placed)
         if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
-            cost += 0.9 if said.kind in SUPPORT_KINDS else 0.5
+            cost += 0.9 if said.kind in SUPPORT_KINDS else 0.35 if self._two_landmarks(objects) else 0.5
             # "A keyboard in front of it and a mouse": the mouse is one more thing.
             cost += 0.6 * (self._is_pronoun(objects.heads[:1]) and not self._definite(objects.heads[1:]))
         if said.kind in SUPPORT_KINDS and said.manner == "place" and len(objects.heads) == 1:

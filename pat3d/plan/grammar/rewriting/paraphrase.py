@@ -45,7 +45,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token, singulars
-from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES
+from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES, WHICH_EDGE
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import of_what
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -229,6 +229,14 @@ def _sides_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "to the globe's left" as "to the left of the globe"."""
     words = [token.text for token in tokens]
     for at, word in enumerate(words[:-1]):
+        part = next(n for n in range(at + 1, len(words)) if words[n] not in WHICH_EDGE)
+        place = next((n for n in range(at - 2, max(at - 6, -1), -1) if link_at(tokens, n) == 1), -1)
+        own = nouns.match([words[at - 1]]) if word == "'s" and words[part] in ("corner", "edge", "end") else None
+        if own is not None and place >= 0 and nouns.of_class(own.noun, lexicon.LEVEL):
+            # "In the desk's left corner"
+            the, of = (replace(tokens[at + 1], text=text) for text in ("the", "of"))
+            owned = [the, *tokens[at + 1 : part + 1], of, *tokens[place + 1 : at]]
+            return [*tokens[: place + 1], *owned, *_sides_of(tokens[part + 1 :], nouns)]
         if word != "'s" or words[at + 1] not in ("left", "right"):
             continue
         known = nouns.match([words[at - 1]]) is not None

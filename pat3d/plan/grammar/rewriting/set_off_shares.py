@@ -27,7 +27,7 @@ Share = tuple[int, list[Token]]
 
 def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "three cups (one red, two blue) and a pen" as "one red cup, two blue cups and a pen"."""
-    made = _both_of_them(_of_them(list(tokens), nouns))
+    made = _of_them(list(tokens), nouns)
     at = 1
     while at < len(made) - 4:
         told = _told(text, made, at, nouns)
@@ -43,6 +43,7 @@ def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     That "one of the figs is dry" is told behind: set off it would end the list, and the pear be somewhere else.
     """
+    tokens = _told_last(tokens)
     words = [token.text for token in tokens]
     for at in range(2, len(words) - 7):
         which = next((n for n in (at + 1, at + 2) if words[n : n + 2] == ["of", "which"]), 0) if words[at] == "," else 0
@@ -61,6 +62,27 @@ def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return list(tokens)
 
 
+def _told_last(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "two jars, one with figs, one with nuts, both on a tray" as "... nuts. Both are on a tray".
+
+    So is "two jars and two figs, one of the figs on a tray"; "a cup by a book, both on a desk" are "both of them".
+    """
+    words = [token.text for token in tokens]
+    for at in (n for n in range(2, len(words) - 3) if words[n] == ","):
+        start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
+        stop = next((n for n in range(at, len(words)) if words[n] == "."), len(words))
+        some = words[at + 1 : at + 4] == ["one", "of", "the"] and words[at + 4] in words[start:at]
+        end = at + 2 if words[at + 1] == "both" else at + 5 if some else stop
+        placed = end < stop and (words[end] == "are" or (words[end] != "of" and link_at(tokens, end) > 0))
+        apart = (some or "one" in words[start:at]) and not {",", "and", "are"} & {*words[end:stop]}
+        if placed and apart:
+            verb = replace(tokens[at], text="is" if some else "are", mark=False)
+            return [*tokens[:at], replace(tokens[at], text="."), *tokens[at + 1 : end], verb, *tokens[end:]]
+        if placed and not some:
+            return [*tokens[:end], *(replace(tokens[end - 1], text=word) for word in ("of", "them")), *tokens[end:]]
+    return list(tokens)
+
+
 def _of_them(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "apples, ten of them, in a box" and "apples in a box, ten of them" as "ten apples in a box"."""
     words = [token.text for token in tokens]
@@ -75,17 +97,6 @@ def _of_them(tokens: list[Token], nouns: Nouns) -> list[Token]:
         behind = tokens[at + 2 :] if words[at + 2] == "." or first + name < start - 1 else tokens[at + 3 :]
         number = replace(tokens[at - 1], start=tokens[first].start, end=tokens[first].start)
         return [*tokens[:first], number, *tokens[first : start - 1], *behind]
-    return tokens
-
-
-def _both_of_them(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "a cup beside a book, both on a desk" as "..., both of them on a desk"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 2):
-        placed = words[at + 2] == "are" or (words[at + 2] != "of" and link_at(tokens, at + 2))
-        if words[at : at + 2] == [",", "both"] and placed:
-            them = [replace(tokens[at + 1], text=word) for word in ("of", "them")]
-            return [*tokens[: at + 2], *them, *tokens[at + 2 :]]
     return tokens
 
 

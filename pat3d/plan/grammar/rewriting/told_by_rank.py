@@ -25,7 +25,7 @@ _ENDS = {
 def by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with those that were counted in a sentence before told by the words for their ranks."""
     told = _another_holds(_front_and_back(some_by_rank(tokens, nouns)))
-    return _in_turn(told, nouns)
+    return _in_each(_in_turn(told, nouns), nouns)
 
 
 def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str] | None:
@@ -46,6 +46,24 @@ def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str]
         if match is not None and match.plural:
             found.append((number_of(words[at]), match.said))
     return found[0] if len(found) == 1 else None
+
+
+def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "in the first, a fig; in the second, a pen" as "in the first box is a fig; in the second ..."."""
+    words, found = [token.text for token in tokens], list[tuple[int, int]]()
+    for at in range(2, len(words) - 5):
+        led = (tokens[at - 1].mark or words[at - 1] == "and") and words[at] in ("in", "on", "inside")
+        side = 2 * (words[at + 2] in ("left", "middle", "right") and words[at + 3] == "one")
+        end = at + 2 + (side or words[at + 2] in ORDINALS)
+        said = end + (words[end] == "," or words[end] in lexicon.COPULAS)
+        if led and words[at + 1] == "the" and end > at + 2 and words[said] in ("a", "an", *lexicon.NUMBERS):
+            found.append((end - side // 2, said))
+    counted = counted_in(words, found[0][0] - 4, nouns) if len(found) > 1 else None
+    made, name = list(tokens), counted[1].split() if counted is not None else []
+    for end, said in reversed(found) if name else ():
+        verb = "is" if words[said] in ("a", "an", "one") else "are"
+        made[end:said] = [replace(tokens[said - 1], text=word, mark=False) for word in (*name, verb)]
+    return made
 
 
 def _front_and_back(tokens: Sequence[Token]) -> list[Token]:

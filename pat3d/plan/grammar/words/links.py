@@ -170,8 +170,9 @@ def _table() -> dict[tuple[str, ...], Link]:
     for verb in ("hangs over", "hang over"):
         add(Link(kind="on", said="hanging over", finite=True), verb)
     add(Link(manner="between", kind="right_of"), "between", "in between")
-    add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on each side of",
-        "on opposite sides of", "at opposite sides of", "on the opposite sides of",
+    add(Link(manner="sides", kind="next_to", said="each"), "on each side of", "at each side of")
+    add(Link(manner="sides", kind="next_to"), "on either side of", "on both sides of", "on opposite sides of",
+        "at opposite sides of", "on the opposite sides of",
         "at either side of", "on the left and right of", "to the left and right of", "on the left and the right of",
         "to the left and the right of", "at both sides of", "to either side of")  # fmt: skip
     add(Link(manner="sides", kind="on"), *(f"{word} {which} of" for word in ("on", "at") for which in _BOTH_ENDS))

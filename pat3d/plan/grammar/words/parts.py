@@ -22,3 +22,10 @@ _HAD = """
 """
 HAD = frozenset(_HAD.split())
 """Names of parts of what is said to have them: "a belt with a buckle"; by itself each is a thing that no source has."""
+_STORED = ("desk", "dresser", "cabinet", "table", "nightstand")
+FIXED: dict[str, tuple[str, ...]] = {
+    "wheels": ("cart", "chair", "suitcase", "bicycle", "skateboard", "toy car", "toy truck", "toy wagon", "bin", "bed"),
+    "keys": ("keyboard", "piano", "calculator", "typewriter"), "strings": ("guitar",), "cap": ("pen", "marker"),
+    "screen": ("phone", "tablet", "laptop", "tv"), "eraser": ("pencil",), "drawer": _STORED, "drawers": _STORED,
+}  # fmt: skip
+"""Things by themselves that are parts of those that are said to have them: "a chair with wheels on it"."""
