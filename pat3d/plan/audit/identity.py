@@ -248,6 +248,7 @@ def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
         return
     asked = it.tasks.strip() or it.undone or "is read as the scene" in it.quoted
     scene = start[0] in ("give", "show") and {*start[1:]} & {"a", "an", "scene"}
+    scene = scene or start[:2] in (["put", "together"], ["set", "up"])
     # "Set two cubes on top of each other", but "Stack of two cubes"
     putting = start[0] in ("set", "stack") and len(start) > 1 and (start[1] in NUMBERS or start[1].isdecimal())
     if (start[0] in REQUESTS or putting) and not asked and not scene and "task" not in it.quoted:

@@ -100,10 +100,11 @@ class Asides(RelationWords):
 
     def _is_had(self, phrase: Phrase) -> bool:
         """Whether `phrase` is a part of what is said to have it: "a belt with a strap and a polished buckle"."""
-        *before, last = [Chunk(kind="joint"), *self._made.chunks]
-        listed = last.kind == "joint" and bool(before) and before[-1].phrase is not None
+        behind = (chunk for n, chunk in enumerate(reversed(self._made.chunks)) if n or chunk.kind != "joint")
+        # "A bed with two pillows and white sheets" has both.
+        last = next((chunk for chunk in behind if chunk.kind not in ("noun", "joint")), Chunk(kind="joint"))
         # "A jar of feathers" holds them.
-        had = (last.kind == "have" and "of" not in last.words) or (listed and before[-1].named.kind == "part")
+        had = last.kind == "have" and "of" not in last.words
         return had and bool({phrase.head, *singulars(phrase.head)} & HAD)
 
     def _to_mark(self) -> int:

@@ -71,7 +71,7 @@ def _opening(words: Sequence[str], at: int) -> int:
     if words[at] in _RANKED and words[at + 1 : at + 3] == ["away", "from"] and words[at - 1] not in _STANDS:
         # "the cup sitting further away from the can"
         return at + 3
-    if words[at] in ("similar", "identical") and words[at + 1 : at + 2] == ["to"]:
+    if words[at : at + 2] in (["similar", "to"], ["identical", "to"], ["reminiscent", "of"], ["evocative", "of"]):
         return at + 2
     if three[:1] == ["as"] == three[2:] and three[1] not in ("well", "many", "much", "few", "soon", "far", "long"):
         return at + 3

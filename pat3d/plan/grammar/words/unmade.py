@@ -13,6 +13,7 @@ def _words(text: str) -> frozenset[str]:
 
 
 _DOINGS = _words("""
+    stream thrive purr tick snore hum
     restock replenish defrost mesh bypass buzz steam coil dock guard uncover shelve locate unzip hoist lug heave
     accept access accomplish achieve acquire activate adapt add adhere adjust admire adopt affect agree aid aim
     align allow announce answer anticipate appear apply appreciate approach arrange assemble assess assist associate
