@@ -31,7 +31,7 @@ _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _STRUCTURES = frozenset({
     "window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door", "doorway", "corner",
-    "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
+    "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance", "palette",
 })  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
 ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})

@@ -167,7 +167,7 @@ class World:
         return [item for item in items if not self._inside_stack(item, 0) or len(items) == 1]
 
     def was_taken(self, items: Sequence[Item]) -> bool:
-        """Whether `items` were taken from elsewhere just before: "take the top book from the pile and open it on ..."."""
+        """Whether `items` were taken from elsewhere just before: "take the book from the pile, open it on ..."."""
         taken = self.steps[-1] if self.steps else None
         if taken is None or {item.group for item in items} != {item.group for item in taken.items}:
             return False

@@ -73,8 +73,11 @@ def formed(tokens: Sequence[Token]) -> list[Token]:
         if token.text in _FORMING and shape and not tokens[at - 1].mark:
             made += [replace(token, text="are")] if token.text != "forming" else []
             made.append(replace(token, text="in"))
-        elif token.text == "face" and at > 1 and _begins(tokens, at + 1) and (
-            singulars(tokens[at - 1].text) or base_verb(tokens[0].text) is None
+        elif (
+            token.text == "face"
+            and at > 1
+            and _begins(tokens, at + 1)
+            and (singulars(tokens[at - 1].text) or base_verb(tokens[0].text) is None)
         ):
             made.append(replace(token, text="faces"))
         else:

@@ -127,9 +127,7 @@ class Nouns:
             # Of the guesses the likelier first: capes are no caps.
             if known is None and name in self._aliases and (found := self.match(self._aliases[name].split())):
                 several = found.plural and name == spelled
-                return Match(
-                    noun=found.noun, said=found.said if several else name, plural=several or name != spelled
-                )
+                return Match(noun=found.noun, said=found.said if several else name, plural=several or name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
         return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
