@@ -62,6 +62,8 @@ def _opening(words: Sequence[str], at: int) -> int:
         and words[at + 2 : at + 3] in (["a"], ["an"])
     ):
         return at + 2
+    if words[at] == "like" and words[at + 1 : at + 2] in (["a"], ["an"]) and words[at + 3 : at + 4] == ["."]:
+        return at + 1
     if words[at] in _SERVING and words[at + 1 : at + 2] == ["as"]:
         return at + 2
     if words[at] in _RESEMBLING:
@@ -96,4 +98,6 @@ def _thing(tokens: Sequence[Token], start: int, nouns: Nouns, *, ranked: bool) -
             known = any(token.text == tokens[end].text for token in tokens[:start])
             return end + 1 if ranked or known or not there else 0
         end += 1
-    return 0
+    # "Across the cans like a ramp" names nothing that is there.
+    plain = tokens[start - 1].text == "like" and tokens[start].text in ("a", "an") and end == start + 2
+    return end if plain and tokens[end].text == "." else 0

@@ -132,6 +132,9 @@ def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
     words = [token.text for token in tokens]
     opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    if tuple(words[-3:-1]) in (("after", "that"), ("after", "this")) and len(words) > 5:
+        # "Clear the tray after that"
+        return [*tokens[:-3], tokens[-1]]
     return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 
