@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.denied_lists import Denied, denied
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.relation_words import RelationWords
@@ -100,11 +99,9 @@ class Asides(RelationWords):
 
     def _is_had(self, phrase: Phrase) -> bool:
         """Whether `phrase` is a part of what is said to have it: "a belt with a strap and a polished buckle"."""
-        behind = (chunk for n, chunk in enumerate(reversed(self._made.chunks)) if n or chunk.kind != "joint")
-        # "A bed with two pillows and white sheets" has both.
-        last = next((chunk for chunk in behind if chunk.kind not in ("noun", "joint")), Chunk(kind="joint"))
-        # "A jar of feathers" holds them.
-        had = last.kind == "have" and "of" not in last.words
+        behind = [chunk for chunk in self._made.chunks if chunk.kind not in ("noun", "joint")][-1:]
+        # "A bed with two pillows and white sheets" has both; "a jar of feathers" holds them.
+        had = bool(behind) and behind[0].kind == "have" and "of" not in behind[0].words
         return had and bool({phrase.head, *singulars(phrase.head)} & HAD)
 
     def _to_mark(self) -> int:

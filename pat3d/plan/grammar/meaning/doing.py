@@ -29,10 +29,9 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
-_STRUCTURES = frozenset({
-    "window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door", "doorway", "corner",
-    "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance", "palette",
-})  # fmt: skip
+_STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
+    "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
+    "palette"})  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
 ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""

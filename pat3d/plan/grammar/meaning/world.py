@@ -169,10 +169,10 @@ class World:
     def was_taken(self, items: Sequence[Item]) -> bool:
         """Whether `items` were taken from elsewhere just before: "take the book from the pile, open it on ..."."""
         taken = self.steps[-1] if self.steps else None
-        if taken is None or {item.group for item in items} != {item.group for item in taken.items}:
+        groups = {item.group for item in items}
+        if taken is None or taken.manner != "pick" or groups != {item.group for item in taken.items}:
             return False
-        stacked = any(item.group.height > 1 for item in items)
-        return taken.manner == "pick" and (stacked or bool({"from", "off", "out"} & {*taken.said.lower().split()}))
+        return any(each.height > 1 for each in groups) or bool({"from", "off", "out"} & {*taken.said.lower().split()})
 
     def tops(self, items: Sequence[Item]) -> list[Item]:
         """Those that carry what is on `items`: all, or the highest of each stack."""

@@ -49,15 +49,8 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    made = _goals_alike(_where_another_is(_on_that(made)), nouns)
+    made = _goals_alike(_where_another_is(made), nouns)
     return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
-
-
-def _on_that(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "put the mat on the desk and the cup on that" as "... on it": on what is put there."""
-    that = (n for n in range(6, len(tokens) - 1) if tokens[n].text == "that" and tokens[n + 1].mark)
-    at = next((n for n in that if link_at(tokens, n - 1) and "and" in (each.text for each in tokens[:n])), -1)
-    return [replace(each, text="it") if n == at else each for n, each in enumerate(tokens)]
 
 
 def _where_another_is(tokens: list[Token]) -> list[Token]:

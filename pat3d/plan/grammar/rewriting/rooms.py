@@ -25,10 +25,7 @@ _SHORTEST = 3
 
 
 def where_it_is(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` of one sentence with "a kitchen where a pot is on a stove" as "in a kitchen, a pot is on a stove".
-
-    "A scene where a pot is on a stove" is no more than the pot on the stove.
-    """
+    """`tokens` with "a kitchen where a pot is on a stove" as "in a kitchen, a pot ..."; a scene is no place."""
     words = [token.text for token in tokens]
     named = (n for n in range(1, min(len(words) - 3, 9)) if words[n] in ROOMS | _SCENES and _where(words, n + 1))
     at = next(named, 0)

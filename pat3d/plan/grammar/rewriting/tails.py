@@ -133,6 +133,8 @@ class Tails(Remarks):
     def _is_loose(self, start: int, end: int) -> bool:
         """Whether tokens `start` to `end` tell only how: an adverb, a verb before its relation, "at random places"."""
         words, before, after = self._words[start:end], self._words[start - 1], self._words[end]
+        # "A candle flickers softly on a table"
+        words = words[:1] if len(words) == 2 and words[1].endswith("ly") else words
         if any(token.mark for token in self._tokens[start:end]) or any(at in self._named for at in range(start, end)):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
@@ -145,10 +147,6 @@ class Tails(Remarks):
             return before in ("hang", "hangs", "hanging", "hung")
         if len(words) == 1 and after in lexicon.ROWS and before in ("a", "one", "two", "three"):
             return looks_like_adjective(words[0])
-        if len(words) == 2 and words[1].endswith("ly"):
-            # "A candle flickers softly on a table"
-            acts = base_verb(words[0]) is not None and base_verb(words[0]) not in _GOING and words[0] not in MOVING
-            return acts and self._behind_noun(start) and self._placing(end) and after not in _LEAVING
         if len(words) > 1:
             head = {words[-1], *singulars(words[-1])}
             how = is_quality(words[-1]) and not head & (lexicon.PARTS | _MARKED)

@@ -38,7 +38,6 @@ not far from = near
 not far away from = near
 the near left/right/corner/edge/side/end = the front 1
 in/on there = 1 it
-put/set together/up a/an/some/two/three/four = create 3
 compose a/an = create 1
 with missing = without
 hang next/beside/above/over/under/below/behind/near = hangs 1
@@ -116,6 +115,7 @@ _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
 _OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
+_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -129,9 +129,16 @@ def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    """`tokens` with "one after the other: put the cup away" as "put the cup away", "set up a desk" as "create ..."."""
     words = [token.text for token in tokens]
+    at = next((n for n, word in enumerate(words) if word not in _ASKING), 0)
+    if words[at : at + 2] in (["set", "up"], ["put", "together"]) and words[at + 2] not in lexicon.DEFINITE:
+        return [*tokens[:at], replace(tokens[at], text="create"), *tokens[at + 2 :]]
     opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    told = len(words) > 6 and "and" in words and base_verb(words[0]) == words[0]
+    if told and words[-2] == "that" and link_at(tokens, len(words) - 3):
+        # "Put the mat on the desk and the cup on that": on what is put there.
+        return [*tokens[:-2], replace(tokens[-2], text="it"), tokens[-1]]
     if tuple(words[-3:-1]) in (("after", "that"), ("after", "this")) and len(words) > 5:
         # "Clear the tray after that"
         return [*tokens[:-3], tokens[-1]]

@@ -21,7 +21,7 @@ _ALIASES = {
     "orange pepper": "bell pepper",
     **{f"{brand}{can}": "soda can" for can in ("", " can") for brand in
        ("red bull", "redbull", "pepsi", "sprite", "fanta", "7up", "coca cola", "coca-cola", "coke cola")},
-    "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat",
+    "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat", "pea": "marble",
     "sweets": "candies", "sweet pepper": "bell pepper", "candelabra": "candlestick", "platter": "plate",
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
