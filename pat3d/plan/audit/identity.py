@@ -51,7 +51,7 @@ _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}
 """What is made to be worn, and of what it is a part as well."""
 _FAST = frozenset({"cord", "cable", "handle", "strap", "hose", "plug", "wire", "string", "chain"})
 """Parts that come off nothing, though there are things of that name too."""
-_BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick"})
+_BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick", "pea"})
 """Names that alone mean one of several things, of which the catalogue has another name."""
 _ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
 _SOLD = frozenset({"soup", "sauce", "coffee", "tea", "sugar"})
