@@ -237,6 +237,9 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
         alone = _BARE & {words[-1], *singulars(words[-1])} if words and not shared else set[str]()
         # "The soup" is made as a can of it.
         alone |= _SOLD & {*words[-1:]} if set[str]() < shared <= _SOLD and obj.noun not in _SOLD else set[str]()
+        # "Apples on the shelf and cookies on the rack"
+        named = " ".join(f"{one.noun} {one.phrase}" for one in it.plan.objects)
+        alone |= {"rack"} & {*it.said.words} if obj.noun == "shelf" and "rack" not in named else set[str]()
         for said in sorted(alone):
             yield 0, f'"{said}" is made as a "{obj.noun}"'
 

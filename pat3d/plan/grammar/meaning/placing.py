@@ -144,8 +144,7 @@ class Placing(Forming):
                     f'"{" ".join(chunk.words)}" is said of "{landmark[0].group.words}"; it may be said of '
                     f'"{rivals[0].group.words}" too.'
                 )
-            if "far" in chunk.words:
-                # "A saw is left of a vise, a mallet left of the saw, and a can at the far right"
+            if "far" in chunk.words:  # "a saw is left of a vise, a mallet left of the saw, a can at the far right"
                 landmark = self._outermost(landmark, LATERAL_SIDES.get(side), children)
             half = surface or side == "centre"
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]

@@ -56,7 +56,7 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         found = noun_of(words[leads:end], nouns)
         behind = words[end : end + 1]
         ends = not behind or behind[0] in ("to", "into", "onto", "towards", "toward", "and", "from", "off")
-        kinds = {words[leads], words[end - 1]} & lexicon.GENERICS.keys()
+        kinds = {*words[leads : leads + 1], words[end - 1]} & lexicon.GENERICS.keys()
         if words[at] == "using" and (kinds or (found is not None and ends)):
             return at, end
         if found is None or found.plural or not ends:
