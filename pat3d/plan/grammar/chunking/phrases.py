@@ -267,9 +267,7 @@ class PhraseReader:
         if head in lexicon.BACKGROUND or " ".join(words[-2:]) in lexicon.BACKGROUND:
             return replace(base, kind="background")
         if any(word in lexicon.SUBSTANCES or (word in lexicon.ROWS and self._definite) for word in singular):
-            return replace(
-                base, kind="background", substance=head
-            )  # "between the rows" is between nothing that is made
+            return replace(base, kind="background", substance=head)  # "between the rows": nothing made
         if any(word in lexicon.PARTS for word in singular):
             whole = self._nouns.match(words[:-1]) if len(words) > 2 and self._definite else None
             if whole is not None:
