@@ -22,6 +22,7 @@ from pathlib import Path
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.colours import find_colour
 from pat3d.errors import PromptError
+from pat3d.plan.drawers import CABINETS, DRAWER, DRAWER_CABINET
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.grammar.words.lexicon import GENERICS
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -36,6 +37,9 @@ _KINDS = {
     "under", "between", "far_from", "above",
 }  # fmt: skip
 _NOUNS = Nouns(lookup)
+_ALSO_MADE = (("bowl", "fruit bowl"), ("box", "storage box"), ("drawer", "open drawer"),
+              *((noun, DRAWER_CABINET) for noun in CABINETS))  # fmt: skip
+"""What else a thing may be made as that is labelled so."""
 
 
 @dataclass(kw_only=True)
@@ -111,7 +115,9 @@ def _wanted(phrase: str) -> Wanted:
             nouns |= {found for each in GENERICS.get(kind, ()) if (found := _NOUNS.resolve(each))}
         elif match := _NOUNS.match(said.split()):
             nouns.add(match.noun)
-    nouns |= {wide for narrow, wide in (("bowl", "fruit bowl"), ("box", "storage box")) if narrow in nouns}
+    nouns |= {
+        wide for narrow, wide in _ALSO_MADE if narrow in nouns and not (wide == DRAWER_CABINET and DRAWER in nouns)
+    }
     return Wanted(
         nouns=frozenset(nouns), words=" ".join(words), count=count, colours=frozenset(colours), optional=optional
     )
@@ -153,7 +159,8 @@ def judge(label: Label, plan: ScenePlan) -> tuple[str, list[str]]:
         short = not own if want.count is None else len(own) < want.count
         if short and not want.optional:
             wrong.append(f"lacks {want.words}")
-    wrong += [f"adds {obj.name}" for obj in left]
+    # What a drawer is in is made though it is not named, and told.
+    wrong += [f"adds {obj.name}" for obj in left if obj.noun != DRAWER_CABINET]
     pairs: Counter[tuple[int, str, int]] = Counter()
     for rel in plan.relations:
         if rel.child in owner and rel.parent in owner:

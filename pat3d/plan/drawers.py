@@ -61,8 +61,12 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
         notes.append(
             f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)} slides.'
         )
-    notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
-              for one in drawers for word in ("left", "right") if word in one.phrase.lower().split()]  # fmt: skip
+    for one in drawers:
+        told = one.phrase.lower().split()
+        notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
+                  for word in ("left", "right") if word in told]  # fmt: skip
+        if "other" in told and len(drawers) == 1:
+            notes.append(f'not modelled: "other" of "{one.phrase}": there is one.')
     own = {one.name for one in drawers}
     relations = [Relation(child=name, kind="in", parent=cabinet.name) for name in sorted(own, key=_place(rows))]
     carriers = [below[name] for name in sorted(own) if name in below and below[name].parent != cabinet.name]

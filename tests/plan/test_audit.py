@@ -143,7 +143,7 @@ def test_what_is_over_something_upside_down_does_not_stand_on_it():
     ("sentence", "named"),
     [
         ("A kettle is in the cabinet.", "inside"),
-        ("Retrieve the knife from the drawer.", "inside"),
+        ("Retrieve the knife from the wardrobe.", "inside"),
         ("A screwdriver is in a hammer.", "inside"),
         ("Move the water to the tray.", '"the water" is made as'),
         ("A fish and soy sauce are in a pan.", '"soy sauce" is made as'),

@@ -104,7 +104,7 @@ def test_where_something_ends_is_its_goal(prompt: str, before: set[str], task: s
          'not modelled: "scatter": a task asks where each thing is put, not how they stand together.'),
         ("Take one lemon from each of the two baskets.",
          'not modelled: "Take one lemon from each of the two baskets": no task does that.'),
-        ("The drawer holds two socks.", 'not arranged: "sock 1" inside "drawer"; it is placed on it'),
+        ("The wardrobe holds two socks.", 'not arranged: "sock 1" inside "wardrobe"; it is placed on it'),
         ("Lay the fork across the jar.", 'not modelled: "Lay the fork across the jar": no task does that.'),
         ("Balance the plank on the two cans.",
          'not modelled: "Balance the plank on the two cans": no task does that.'),

@@ -16,7 +16,7 @@ PLANNER = GrammarPlanner()
         ("Fetch the towel so we can mop the floor.", "towel", "pick:towel"),
         ("I need the lamp but my hands are full, can you help?", "lamp", None),
         ("Can someone bring me the towel?", "towel", None),
-        ("Open the drawer so that you can see what is inside.", "drawer", None),
+        ("Open the drawer so that you can see what is inside.", "cabinet, drawer", "open:drawer"),
         ("Give me something that can charge my phone.", "phone", None),
         ("A bowl that can hold two apples is on the table.", "bowl, table, apple 1, apple 2", None),
         ("Move the laptop to the chair. It can go on top.", "laptop, chair", "place:laptop:chair"),

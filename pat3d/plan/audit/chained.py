@@ -172,6 +172,18 @@ def _beside_it(it: Compared) -> Iterator[tuple[int, str]]:
             continue
         last = next((one for one in it.said.mentions if one.end in (claim.at, claim.at - 1)), None)
         things = row_of(it, last) if last is not None else []
+        words, before = it.said.words, [one for one in it.said.mentions if last is not None and one.end < last.first]
+        if (
+            last is not None
+            and len(before) > 2
+            and words[last.first - 1] == "and"
+            and words[before[-1].first - 1] == "of"
+        ):
+            # "A blender, and a cup of figs and two pears next to it": the cup is next to the blender as well.
+            of, own = ({obj.name for obj in it.which(one)} for one in (before[-2], last))
+            again = words[before[-2].first - 1] == "and" and before[-2].end == before[-1].first - 1
+            if again and any({a, b} & of and {a, b} & own for a, _, b in it.edges):
+                yield claim.at, f'"{claim.said}" is read as next to "{before[-2].text}"'
         having = next((one for one in it.said.claims if things and one.of is things[0]), None)
         owner = next((one for one in it.said.mentions if having is not None and one.end == having.at), None)
         if having is None or owner is None or having.place != "with" or len(things) < 2:

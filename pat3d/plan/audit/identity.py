@@ -51,7 +51,7 @@ _WORN = {"cap": "bottle bottles pen pens marker markers jar jars tube thermos"}
 """What is made to be worn, and of what it is a part as well."""
 _FAST = frozenset({"cord", "cable", "handle", "strap", "hose", "plug", "wire", "string", "chain"})
 """Parts that come off nothing, though there are things of that name too."""
-_BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick"})
+_BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick", "pea"})
 """Names that alone mean one of several things, of which the catalogue has another name."""
 _ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
 _SOLD = frozenset({"soup", "sauce", "coffee", "tea", "sugar"})
@@ -237,6 +237,9 @@ def _made_otherwise(it: Compared) -> Iterator[tuple[int, str]]:
         alone = _BARE & {words[-1], *singulars(words[-1])} if words and not shared else set[str]()
         # "The soup" is made as a can of it.
         alone |= _SOLD & {*words[-1:]} if set[str]() < shared <= _SOLD and obj.noun not in _SOLD else set[str]()
+        # "Apples on the shelf and cookies on the rack"
+        named = " ".join(f"{one.noun} {one.phrase}" for one in it.plan.objects)
+        alone |= {"rack"} & {*it.said.words} if obj.noun == "shelf" and "rack" not in named else set[str]()
         for said in sorted(alone):
             yield 0, f'"{said}" is made as a "{obj.noun}"'
 
@@ -248,6 +251,7 @@ def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
         return
     asked = it.tasks.strip() or it.undone or "is read as the scene" in it.quoted
     scene = start[0] in ("give", "show") and {*start[1:]} & {"a", "an", "scene"}
+    scene = scene or start[:2] in (["put", "together"], ["set", "up"])
     # "Set two cubes on top of each other", but "Stack of two cubes"
     putting = start[0] in ("set", "stack") and len(start) > 1 and (start[1] in NUMBERS or start[1].isdecimal())
     if (start[0] in REQUESTS or putting) and not asked and not scene and "task" not in it.quoted:

@@ -94,7 +94,8 @@ class Sparing(ABC):
         alone = all(each.unread for each in told) or len(told) == 1
         if alone and not names_all(clause.tokens, self._nouns, number, asked=asks):
             raise failure
-        if clause.manner in ("make", "move", "stack") and world.steps and world.steps[-1].manner == "pick":
+        again = {"it", "them"} & {token.text for token in clause.tokens}
+        if again and clause.manner in ("make", "move", "stack") and world.steps and world.steps[-1].manner == "pick":
             # "Pick up the cup and put it wherever there is room": to pick it up is not all of it.
             world.steps.pop()
         said = clause.said or quoted(text, clause.tokens[:-1])

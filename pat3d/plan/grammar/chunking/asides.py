@@ -102,9 +102,8 @@ class Asides(RelationWords):
         """Whether `phrase` is a part of what is said to have it: "a belt with a strap and a polished buckle"."""
         *before, last = [Chunk(kind="joint"), *self._made.chunks]
         listed = last.kind == "joint" and bool(before) and before[-1].phrase is not None
-        # "A jar of feathers" holds them.
-        had = (last.kind == "have" and "of" not in last.words) or (listed and before[-1].named.kind == "part")
         if phrase.kind == "object" and phrase.head in FIXED:
+            had = (last.kind == "have" and "of" not in last.words) or (listed and before[-1].named.kind == "part")
             owner = next((c.phrase for c in reversed(before) if c.phrase and c.phrase.kind != "part"), None)
             fixed = owner is not None and self._nouns.of_class(owner.noun, FIXED[phrase.head])
             apart = self._tokens[after + link_at(self._tokens, after)].text in lexicon.PRONOUNS
@@ -114,6 +113,9 @@ class Asides(RelationWords):
                 and last.words[0] in ("with", "has", "have", "and")
                 and (not apart or self._on_a_part(after) > 0)
             )
+        behind = [chunk for chunk in self._made.chunks if chunk.kind not in ("noun", "joint")][-1:]
+        # "A bed with two pillows and white sheets" has both; "a jar of feathers" holds them.
+        had = bool(behind) and behind[0].kind == "have" and "of" not in behind[0].words
         return phrase.kind == "unknown" and had and bool({phrase.head, *singulars(phrase.head)} & HAD)
 
     def _to_mark(self) -> int:

@@ -130,8 +130,8 @@ class PhraseReader:
             another, run = flags.get("determined", False), run[1:] if flags.get("determined") else run
         if another and (not run or [token.text for token in run] in (["one"], ["ones"])):
             words = self._text[tokens[start].start : tokens[after - 1].end]
-            number = tokens[after - 1].number
-            return Phrase(kind="pronoun", head="another", words=words, number=number, count=count, modifiers=own), after
+            said = Phrase(kind="pronoun", head="another", words=words, number=tokens[after - 1].number)
+            return replace(said, count=count, modifiers=own), after
         if not run:
             if after == start:
                 return None
@@ -256,19 +256,18 @@ class PhraseReader:
         if len(words) > 1 and set(singular) & _CUTS and self._nouns.match(words[-2:-1]):
             # "three orange wedges"
             whole = self._simple(run[:-1], count)
-            said = replace(whole.modifiers, adjectives=(*whole.modifiers.adjectives, head))
+            said = whole.modifiers.under(Modifiers(adjectives=(head,)))
             return replace(whole, plural=len(singular) > 1, modifiers=said)
-        two = " ".join(words[-2:])
         if any(word in lexicon.STACK_NOUNS for word in singular):
             return replace(base, kind="pieces", said="stack")
         if any(word in lexicon.PIECES for word in singular):
             return replace(base, kind="pieces")
         if head in lexicon.ITEMS:
             return replace(base, kind="items")
-        if head in lexicon.BACKGROUND or two in lexicon.BACKGROUND:
+        if head in lexicon.BACKGROUND or " ".join(words[-2:]) in lexicon.BACKGROUND:
             return replace(base, kind="background")
-        if any(word in lexicon.SUBSTANCES for word in singular):
-            return replace(base, kind="background", substance=head)
+        if any(word in lexicon.SUBSTANCES or (word in lexicon.ROWS and self._definite) for word in singular):
+            return replace(base, kind="background", substance=head)  # "between the rows": nothing made
         if any(word in lexicon.PARTS for word in singular):
             whole = self._nouns.match(words[:-1]) if len(words) > 2 and self._definite else None
             if whole is not None:
@@ -319,7 +318,10 @@ class PhraseReader:
             own = inner.modifiers.under(read_modifiers(words[:-1]))
             return replace(inner, rows=shapes.grid_rows(inner.count or 0), modifiers=own), after
         if shape_said(head) and inner.kind in ("object", "unknown") and inner.several:
-            raise refuse(head, run[-1].number)
+            others = [*(token for token in self._tokens if token.number < run[0].number), *self._tokens[after:]]
+            if not any(self._nouns.match([token.text]) for token in others):
+                raise refuse(head, run[-1].number)  # but "a spiral of cups on a table": the cups, and a note
+            return replace(inner, modifiers=inner.modifiers.under(Modifiers(adjectives=(*words[:-1], head)))), after
         if head in lexicon.PICTURES:
             return None
         rows = any(word in lexicon.ROWS for word in singular)
@@ -329,10 +331,9 @@ class PhraseReader:
                            modifiers=inner.modifiers.under(read_modifiers(words[:-1]))), after  # fmt: skip
         if rows or head in lexicon.COLLECTIVES:
             taken = {"pair": 2 * (count or 1), "couple": 2, "trio": 3, "dozen": 12, "pairs": 2 * (count or 2)}.get(head)
-            taken = (count or 1) if head == "pair" and inner.head in lexicon.PLURAL_ONLY else taken
-            taken = (count or 2) if head == "pairs" and inner.head in lexicon.PLURAL_ONLY else taken
-            if head in ("few", "handful", "lot", "lots", "plenty", "number"):
-                taken = 5 if head in ("lot", "lots", "plenty") else 3
+            if head in ("pair", "pairs") and inner.head in lexicon.PLURAL_ONLY:
+                taken = count or (1 if head == "pair" else 2)
+            taken = 3 if head in ("few", "handful", "number") else 5 if head in ("lot", "lots", "plenty") else taken
             if inner.kind == "background":
                 return inner, after
             amount = inner.count if taken is None else taken
@@ -383,9 +384,8 @@ class PhraseReader:
                 return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
                 amount = inner.count if count is None and plural else count
-                if portion and set(singular) & _CUTS:
-                    # "Two slices of pizza" are two whole ones.
-                    rest = replace(rest, adjectives=(*rest.adjectives, head))
+                # "Two slices of pizza" are two whole ones.
+                rest = rest.under(Modifiers(adjectives=(head,))) if portion and set(singular) & _CUTS else rest
                 return replace(inner, plural=plural, count=amount, modifiers=inner.modifiers.under(rest)), after
         if known is not None and not holds and inner.kind in ("object", "unknown", "background", "part", "pieces"):
             left_out = inner.words if inner.kind in ("unknown", "object") and not find_material(inner.head) else ""

@@ -29,10 +29,9 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
-_STRUCTURES = frozenset({
-    "window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door", "doorway", "corner",
-    "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
-})  # fmt: skip
+_STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
+    "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
+    "palette"})  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
 ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
@@ -286,7 +285,8 @@ class Doing(Placing):
             likely, world = self._world.likely, self._world
             below = [world.support(item) for item in children]
             below = [item for item in below if item is not None and likely.closet(world.noun(item))]
-            children = below or (self._opened() if self._clause.verb != "open" else []) or children
+            filled = [item for item in (world.steps[-1].goal if world.steps else ()) if likely.closet(world.noun(item))]
+            children = below or ((self._opened() or filled) if self._clause.verb != "open" else []) or children
         pronouns = [self._chunks[head].named.kind for head in heads] == ["pronoun"]
         if self._clause.manner == "unload" and pronouns and len(children) == 1:
             # "A jug and a rope are on a cart. Unload it": the cart.

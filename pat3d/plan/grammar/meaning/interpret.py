@@ -240,7 +240,8 @@ class Interpreter(Holding):
             self._world.note(f'"{self._chunks[at].text}" is read as "next to".')
         moved = self._clause.verb in _ROLLING and (link.kind in LATERAL_KINDS or link.manner in ("under", "between"))
         aimed = self._clause.verb == "point" and self._chunks[at].words == ("at",)
-        if self._clause.manner in ("other", "unload") and (link.manner == "goal" or aimed or (moved and at == 1)):
+        later = link.manner == "goal" or aimed or (moved and at == 1) or self._world.was_taken(children)
+        if self._clause.manner in ("other", "unload") and later:
             # "Pour the milk into the glass", "point the camera at the vase": before that it is not so.
             self._said.not_understood((*child_heads, *parent_heads))
             return

@@ -145,6 +145,8 @@ class Placing(Forming):
                     f'"{" ".join(chunk.words)}" is said of "{landmark[0].group.words}"; it may be said of '
                     f'"{rivals[0].group.words}" too.'
                 )
+            if "far" in chunk.words:  # "a saw is left of a vise, a mallet left of the saw, a can at the far right"
+                landmark = self._outermost(landmark, LATERAL_SIDES.get(side), children)
             half = surface or side == "centre"
             link = Link(manner="half", kind="on", side=side) if half else Link(kind=LATERAL_SIDES[side])  # type: ignore[arg-type]
             self._relating.relate(children, link, landmark)
@@ -153,6 +155,15 @@ class Placing(Forming):
             # "A cup and a bowl are on the table. The cup is on the left."
             implied = [item for item in world.together if item not in children]
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _outermost(self, items: list[Item], kind: str | None, children: list[Item]) -> list[Item]:
+        """The farthest on side `kind` of `items`, by what was said of which is beside which."""
+        edges = [edge for edge in self._world.laterals if kind and not {edge.child, edge.parent} & {*children}]
+        further = {edge.parent: edge.child for edge in edges if edge.kind == kind}
+        further |= {edge.child: edge.parent for edge in edges if OPPOSITE.get(edge.kind) == kind}
+        for _ in range(len(further)):
+            items = [further[items[0]]] if items[0] in further else items
+        return items
 
     def _stands_by_seats(self, item: Item) -> bool:
         return self._world.on_floor(item) or self._world.is_a(item, lexicon.BY_A_SEAT)

@@ -21,6 +21,9 @@ from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 _BUILT_ON = frozenset({"screen", "keyboard", "lid"})
 """Parts that never come off, though there are things of that name too."""
 
+_THINGS_TOO = frozenset({"palette", "light", "window", "curtain", "shed", "barn", "garage", "house"})
+"""Words of places and moods that name things as well."""
+
 
 class References(Members):
     """Resolves the phrases of one sentence."""
@@ -84,6 +87,10 @@ class References(Members):
                     world.note(f'not modelled: "{phrase.words}"')
             elif phrase.words not in world.aside:
                 world.aside.append(phrase.words)
+                joined = any(piece.kind == "joint" for piece in self._chunks[max(at - 1, 0) : at + 2])
+                if joined and phrase.head in _THINGS_TOO and not phrase.definite:
+                    # "A vase and a palette are on the table"
+                    world.note(f'not modelled: "{phrase.words}"')
 
     def _goes_on(self, at: int) -> bool:
         """Whether something is told of the phrase at chunk `at` behind a comma: ", mug on a book"."""

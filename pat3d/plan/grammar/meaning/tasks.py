@@ -176,6 +176,8 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
         return ["sort"] if len(step.goal) > 1 else []
     # No robot moves furniture.
     items = [item for item in step.items if item in names and not world.on_floor(item)]
+    if step.manner == "pick" and any(world.noun(item) in DRAWERS for item in items):
+        return []
     if step.manner == "pick":
         return [f"pick:{names[items[0]]}"] if len(items) == 1 else []
     goal = next((item for item in step.goal if item in names), None)

@@ -166,6 +166,14 @@ class World:
         """Those that stand on the support of `items`: all, or the lowest of each stack."""
         return [item for item in items if not self._inside_stack(item, 0) or len(items) == 1]
 
+    def was_taken(self, items: Sequence[Item]) -> bool:
+        """Whether `items` were taken from elsewhere just before: "take the book from the pile, open it on ..."."""
+        taken = self.steps[-1] if self.steps else None
+        groups = {item.group for item in items}
+        if taken is None or taken.manner != "pick" or groups != {item.group for item in taken.items}:
+            return False
+        return any(each.height > 1 for each in groups) or bool({"from", "off", "out"} & {*taken.said.lower().split()})
+
     def tops(self, items: Sequence[Item]) -> list[Item]:
         """Those that carry what is on `items`: all, or the highest of each stack."""
         kept = [item for item in items if not self._inside_stack(item, -1) or len(items) == 1]

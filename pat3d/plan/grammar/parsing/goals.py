@@ -137,7 +137,8 @@ class Goals(Having):
         before, behind = self._chunks[rest.start - 1].phrase, self._phrase(rest.heads[0])
         if before is None or rest.start - 1 in first.heads or behind.kind != "object":
             return False
-        bare = not (behind.determined or behind.plural or behind.count) and not behind.modifiers.colours
+        bare = not (behind.determined or behind.possessive or behind.plural or behind.count)
+        bare = bare and not behind.modifiers.colours
         aside = any(fact[0] == "goal" and self._link(fact[1]).kind in LATERAL_KINDS for fact in first.facts)
         moved = self._phrase(first.heads[0]).determined or (aside and self._is_pronoun(first.heads))
         return bare and (before.determined or before.possessive) and moved

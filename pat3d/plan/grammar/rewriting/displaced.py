@@ -19,7 +19,6 @@ from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
-_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 NEARNESS = frozenset({"closer", "closest", "nearer", "nearest"})
 _TAKING = frozenset({"pick", "grab", "lift", "grasp"})
 _SIDE_WORDS = frozenset({"left", "right", "side"})
@@ -205,15 +204,6 @@ def _last_in_order(tokens: Sequence[Token]) -> list[Token]:
         verb = [] if stands else [replace(tokens[at], text="are", mark=False)]
         return [*tokens[:at], *verb, *tokens[close + 1 : end], *tokens[at + 1 : close], *tokens[stop:]]
     return list(tokens)
-
-
-def asked(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "could you set up a desk" as "create a desk"."""
-    at = next((n for n, token in enumerate(tokens) if token.text not in _ASKING), 0)
-    words = [token.text for token in tokens[at : at + 3]]
-    if words[:2] != ["set", "up"] or words[2] in lexicon.DEFINITE:
-        return list(tokens)
-    return [replace(tokens[at], text="create"), *tokens[at + 2 :]]
 
 
 def stateless(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -49,8 +49,23 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    made = _goals_alike(made, nouns)
+    made = _goals_alike(_where_another_is(made), nouns)
     return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
+
+
+def _where_another_is(tokens: list[Token]) -> list[Token]:
+    """`tokens` with "put the cup where the can is, and the can in the box" as "..., put the can in the box"."""
+    words = [token.text for token in tokens]
+    where = words.index("where") if "where" in words else len(words)
+    verb = next((n for n in range(where) if _commands(tokens, n) and words[n] in _PUTTING), where)
+    stands = next((n for n in range(where + 2, len(words) - 3) if words[n] in lexicon.STANDING), 0)
+    end = stands + 1
+    while stands and words[end] in (",", "and", "then"):
+        end += 1
+    if verb < where and end > stands + 1 and _leads(tokens, end):
+        comma = replace(tokens[stands + 1], text=",", mark=True)
+        return [*tokens[: stands + 1], comma, replace(tokens[verb], number=tokens[end].number), *tokens[end:]]
+    return tokens
 
 
 def _filled_from(tokens: list[Token]) -> list[Token]:

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.unmade import base_verb
 
@@ -35,6 +36,8 @@ def in_order(tokens: Sequence[Token], opens: Callable[[int], bool]) -> Sequence[
         tokens: end in a stop.
         opens: whether an instruction begins at a token.
     """
+    if (turned := _behind(tokens, opens)) is not None:
+        return turned
     comma = _comma(tokens)
     if not comma or not (tokens[0].text in _FIRST or tokens[0].text == "before") or not opens(comma + 1):
         return tokens
@@ -50,6 +53,33 @@ def in_order(tokens: Sequence[Token], opens: Callable[[int], bool]) -> Sequence[
     # "Before you open the box, put it on the tray": the box was named first.
     told = {token.text for token in after} & _REFERRING
     return tokens if told else [*after, *then, *before, stop]
+
+
+def _behind(tokens: Sequence[Token], opens: Callable[[int], bool]) -> list[Token] | None:
+    """`tokens` with "close the box after putting the egg in it" as "put the egg in the box and then close the box".
+
+    So is "... before closing it" as "... and then close it"; None where nothing is said so.
+    """
+    at = next((n for n in range(2, len(tokens) - 3) if tokens[n].text in ("before", "after")
+               and tokens[n + 1].text.endswith("ing") and tokens[n + 2].text in {*_LEADS, "it", "them"}), 0)  # fmt: skip
+    verb = base_verb(tokens[at + 1].text) if at else None
+    marked = any(token.mark for token in tokens[:-1])
+    if verb is None or marked or not opens(0) or any(token.text in ("and", "then") for token in tokens):
+        return None
+    told, deed, stop = tokens[:at], [replace(tokens[at + 1], text=verb), *tokens[at + 2 : -1]], tokens[-1]
+    then = [replace(tokens[at], text=word) for word in ("and", "then")]
+    if tokens[at].text == "before":
+        return [*told, *then, *deed, stop]
+    meant = [n for n, token in enumerate(deed) if token.text in _REFERRING]
+    if meant and any(link_at(told, n) for n in range(1, len(told))):
+        return None
+    if deed[-1].text == "inside":
+        deed += told[1:]
+    for n in reversed(meant):
+        deed[n : n + 1] = told[1:]
+    # What is quoted of the second deed begins where it was told.
+    then = [replace(word, start=told[0].start, end=told[0].start) for word in then]
+    return [*deed, *then, *told, stop]
 
 
 def forbidden(tokens: Sequence[Token], opens: Callable[[int], bool]) -> tuple[int, list[Token]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.denials import Told
 from pat3d.plan.grammar.words import lexicon
@@ -26,7 +27,14 @@ def in_turn(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
         led = _led(tokens, at) if words[at] == "in" else 0
         listed = led or (at + 1 if words[at] in (",", ":", "-") else 0)
         end = _listed(tokens, listed) if listed else 0
-        if not end or not _IN_TIME & set(words[listed:end]) or (not led and not _OPENING & set(words[listed:end])):
+        timed = bool(end) and bool(_IN_TIME & set(words[listed:end]))
+        hues = [word for word in words[listed:end] if is_colour_word(word)]
+        if led and end and not timed and len(hues) in {lexicon.NUMBERS.get(word) for word in words[:at]}:
+            # "Three mugs in the order blue, yellow, red"
+            row = [] if {"row", "line", "stack", "stacked", "tower"} & {*words[:at]} else ["in", "a", "row"]
+            form = [replace(tokens[at], text=word, mark=word == ":") for word in (*row, ":")]
+            return [*tokens[:at], *form, *tokens[listed:]], []
+        if not end or not (timed or led) or (not led and not _OPENING & set(words[listed:end])):
             continue
         if not led and any(words[n : n + 2] == ["the", "first"] for n in range(listed, end)):
             # "Three jars in a row, the first one red and the last one blue": which is red.

@@ -10,7 +10,8 @@ from pat3d.plan.grammar.rewriting.lids import on_its_lid
 from pat3d.plan.grammar.rewriting.rooms import in_rooms, where_it_is
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _PERSONS = frozenset({"she", "he", "we", "i", "they", "somebody", "someone", "you", "people"})
@@ -63,7 +64,7 @@ def _connected(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def formed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "five cans form a row" as "five cans are in a row"."""
+    """`tokens` with "five cans form a row" as "five cans are in a row", "two chairs face a bed" with that verb."""
     made: list[Token] = []
     tokens = _formed_with(tokens)
     for at, token in enumerate(tokens):
@@ -72,6 +73,13 @@ def formed(tokens: Sequence[Token]) -> list[Token]:
         if token.text in _FORMING and shape and not tokens[at - 1].mark:
             made += [replace(token, text="are")] if token.text != "forming" else []
             made.append(replace(token, text="in"))
+        elif (
+            token.text == "face"
+            and at > 1
+            and _begins(tokens, at + 1)
+            and (singulars(tokens[at - 1].text) or base_verb(tokens[0].text) is None)
+        ):
+            made.append(replace(token, text="faces"))
         else:
             made.append(token)
     return made

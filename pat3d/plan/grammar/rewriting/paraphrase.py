@@ -14,7 +14,6 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.amounts import counted
 from pat3d.plan.grammar.rewriting.commands import allowed
 from pat3d.plan.grammar.rewriting.displaced import (
-    asked,
     by_which,
     fronted,
     in_place,
@@ -86,7 +85,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)
     tokens = _without_warning(tokens)
-    tokens = counted(fronted(stateless(asked(formed(emptied(tokens))), nouns)), nouns)
+    tokens = counted(fronted(stateless(formed(emptied(tokens)), nouns)), nouns)
     refuse_negations(tokens)
     tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)

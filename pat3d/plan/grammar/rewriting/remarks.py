@@ -17,8 +17,6 @@ from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.unmade import base_verb, is_quality
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-"""The first token and the one after the last."""
-
 _PARTICLES = frozenset({"off", "up", "out", "down", "away", "back", "open", "apart", "together", "over", "in", "on"})
 _IRREGULAR = frozenset({"cut", "broken", "taken", "worn", "torn", "bent", "drawn", "written", "woven", "swept", "built",
     "burnt", "spilt", "shut", "open", "grown", "blown", "made", "spun", "wound", "bound", "hidden", "half-eaten",

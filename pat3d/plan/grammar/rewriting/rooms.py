@@ -17,6 +17,7 @@ ROOMS = frozenset({"room", "kitchen", "bathroom", "bedroom", "office", "workshop
     "classroom", "library", "cafe", "restaurant", "nursery", "playroom", "laboratory", "lab", "workspace", "lounge",
     "study", "den", "pantry", "attic", "basement", "hallway", "lobby", "warehouse", "factory", "store", "supermarket",
     "shop", "bakery", "cafeteria", "gym", "shed", "cellar", "workcell", "apartment", "house", "home"})  # fmt: skip
+_SCENES = frozenset({"scene", "picture", "image", "photo", "setup", "arrangement", "setting"})
 _HARDLY = 1.0
 """Cost of being inside from which on nobody thinks of it: a plant in a trash can."""
 _SHORTEST = 3
@@ -24,14 +25,17 @@ _SHORTEST = 3
 
 
 def where_it_is(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` of one sentence with "a kitchen where a pot is on a stove" as "in a kitchen, a pot is on a stove"."""
+    """`tokens` with "a kitchen where a pot is on a stove" as "in a kitchen, a pot ..."; a scene is no place."""
     words = [token.text for token in tokens]
-    at = next((n for n in range(1, min(len(words) - 3, 9)) if words[n] in ROOMS and _where(words, n + 1)), 0)
+    named = (n for n in range(1, min(len(words) - 3, 9)) if words[n] in ROOMS | _SCENES and _where(words, n + 1))
+    at = next(named, 0)
     article = next((n for n in range(at - 1, max(at - 4, -1), -1) if words[n] in ("a", "an", "the", "this")), -1)
     opening = all(word in lexicon.COMMANDS or word in ("there", "is") for word in words[: max(article, 0)])
     if not at or article < 0 or not opening:
         return list(tokens)
     there = at + 1 + _where(words, at + 1)
+    if words[at] in _SCENES:
+        return list(tokens[there:])
     lead = replace(tokens[article], text="in", end=tokens[article].start)
     return [lead, *tokens[article : at + 1], replace(tokens[at + 1], text=",", mark=True), *tokens[there:]]
 

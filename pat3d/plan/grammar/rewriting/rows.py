@@ -53,6 +53,8 @@ def _there_too(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
 
 def told_rows(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what stands in a row before the row."""
+    if " ".join(each.text for each in tokens[-4:-1]) == "between the rows":  # "with a jug between the rows": in no cup
+        tokens = [replace(token, text="and") if token.text == "with" else token for token in tokens]
     told = _end_to_end(_told_stack(_from_one_end(_there_too(tokens, nouns), nouns)))
     tokens = _at_its_end(_of_a_kind(_of_two_colours(told), nouns))
     words = [token.text for token in tokens]

@@ -10,8 +10,6 @@ from pat3d.plan.grammar.words.lexing import Span, Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-"""The first token and the one after the last."""
-
 _RANKED = frozenset({"furthest", "farthest", "further", "farther"})
 _STANDS = frozenset({"stands", "stand", "lies", "lie", "sits", "sit", "rests", "rest"})
 _LOOKING = frozenset(
@@ -56,30 +54,24 @@ def _opening(words: Sequence[str], at: int) -> int:
     three = words[at : at + 3]
     if words[at] in _LOOKING and words[at + 1 : at + 2] in (["like"], ["as"]):
         return at + 2
-    if (
-        words[at] in _FOLDED
-        and words[at + 1 : at + 2] in (["into"], ["in"])
-        and words[at + 2 : at + 3] in (["a"], ["an"])
-    ):
+    if words[at] in _FOLDED and three[1:2] in (["into"], ["in"]) and three[2:] in (["a"], ["an"]):
         return at + 2
     if words[at] in _SERVING and words[at + 1 : at + 2] == ["as"]:
         return at + 2
-    if words[at] in _RESEMBLING:
+    like = words[at] == "like" and three[1:2] in (["a"], ["an"]) and words[at + 3 : at + 4] == ["."]
+    if like or words[at] in _RESEMBLING:
         return at + 1
-    if words[at] in _RANKED and words[at + 1 : at + 2] == ["from"]:
-        return at + 2
-    if words[at] in _RANKED and words[at + 1 : at + 3] == ["away", "from"] and words[at - 1] not in _STANDS:
-        # "the cup sitting further away from the can"
-        return at + 3
-    if words[at] in ("similar", "identical") and words[at + 1 : at + 2] == ["to"]:
+    # "The cup sitting further away from the can"
+    away = words[at + 1 : at + 2] == ["away"] and words[at - 1] not in _STANDS
+    if words[at] in _RANKED and words[at + 1 + away : at + 2 + away] == ["from"]:
+        return at + 2 + away
+    if words[at : at + 2] in (["similar", "to"], ["identical", "to"], ["reminiscent", "of"], ["evocative", "of"]):
         return at + 2
     if three[:1] == ["as"] == three[2:] and three[1] not in ("well", "many", "much", "few", "soon", "far", "long"):
         return at + 3
-    if three[0] == "the" and three[1:2] and three[1] in _MEASURES and three[2:] == ["of"]:
-        return at + 3
-    if three[:2] == ["in", "the"] and set(three[2:]) & _MEASURES and words[at + 3 : at + 4] == ["of"]:
-        return at + 4
-    return 0
+    size = at + (three[0] == "in")
+    measured = words[size] == "the" and set(words[size + 1 : size + 2]) & _MEASURES if size < len(words) else False
+    return size + 3 if measured and words[size + 2 : size + 3] == ["of"] else 0
 
 
 def _thing(tokens: Sequence[Token], start: int, nouns: Nouns, *, ranked: bool) -> int:
@@ -96,4 +88,6 @@ def _thing(tokens: Sequence[Token], start: int, nouns: Nouns, *, ranked: bool) -
             known = any(token.text == tokens[end].text for token in tokens[:start])
             return end + 1 if ranked or known or not there else 0
         end += 1
-    return 0
+    # "Across the cans like a ramp" names nothing that is there.
+    plain = tokens[start - 1].text == "like" and tokens[start].text in ("a", "an") and end == start + 2
+    return end if plain and tokens[end].text == "." else 0

@@ -133,6 +133,7 @@ class Tails(Remarks):
     def _is_loose(self, start: int, end: int) -> bool:
         """Whether tokens `start` to `end` tell only how: an adverb, a verb before its relation, "at random places"."""
         words, before, after = self._words[start:end], self._words[start - 1], self._words[end]
+        words = words[:1] if len(words) == 2 and words[1].endswith("ly") else words  # "flickers softly"
         if any(token.mark for token in self._tokens[start:end]) or any(at in self._named for at in range(start, end)):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):

@@ -43,10 +43,13 @@ _BUILT = frozenset({"stack", "tower", "pile", "column", "pyramid"})
 _MADE_OF = (("with",), ("which", "has"), ("that", "has"), ("made", "of"), ("built", "of"), ("built", "from"),
             ("consisting", "of"), ("of",), ("has",), ("made", "from"), ("containing",), ("out", "of"),
             ("built", "out", "of"), ("made", "out", "of"), ("built", "with"), ("using",))  # fmt: skip
+_UPON = (("on", "top"), ("on", "it"), ("on", "that"), ("on", "top", "of", "it"), ("on", "top", "of", "that"))
+"""What is said of each of a tower behind the lowest."""
 
 
 def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence, with a stack of which the order is said as a list from its lowest to its highest."""
+    tokens = _climbing(tokens)
     words = [token.text for token in tokens]
     found = _listed(tokens, words) or _levelled(tokens, words, nouns) or _topped(tokens, words)
     if found is None:
@@ -86,6 +89,33 @@ def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         listed += [replace(like, text=word, mark=False) for word in ("on", "top")]
     opening = [*tail, replace(like, text="is", mark=False)] if tail and link_at(tail, 0) else []
     return [*opening, a, stack, of, *listed, tokens[-1]]
+
+
+def _climbing(tokens: Sequence[Token]) -> Sequence[Token]:
+    """`tokens` with "a tower: a cube on the mat, a can on it, then a ball on top" as "... a ball on the can".
+
+    "Put the cube on the mat, the can on it, then the ball on top" so too.
+    """
+    words = [token.text for token in tokens]
+    start = words.index(":") + 1 if ":" in words and {*_BUILT} & {*words[: words.index(":")]} else 0
+    tasks = words[start] in _PUTTING
+    parts = _parts(tokens[start + tasks : -1])
+    tails = [next((size for size in (4, 2) if tuple(each.text for each in part[-size:]) in _UPON), 0) for part in parts]
+    places = [next((n for n in range(1, len(part)) if link_at(part, n) and part[n].text != "of"), 0) for part in parts]
+    whole = all(tail and len(part) > tail for part, tail in zip(parts[1:], tails[1:], strict=True)) and places[:1] > [0]
+    plain = (start or words[-3:] == ["on", "top", "."]) and not any(word in FINITE for word in words[start:])
+    if len(parts) < (2 if start else 3) or not whole or not plain or tails[0]:
+        return tokens
+    tasks = tasks or (words[0] in _BUILDING and all(part[0].text == "the" for part in parts))
+    made, below = list[Token](), list[Token]()
+    for part, tail, place in zip(parts, tails, places, strict=True):
+        name = part[: -tail if tail else place]
+        goal = [replace(part[-1], text="on"), *below] if tail else part[place:]
+        made += [replace(name[0], text=",", mark=True)] if made else []
+        made += [*([replace(name[0], text="put")] if tasks else []), *name]
+        made += goal if tasks else [replace(name[-1], text="is"), *goal]
+        below = [replace(name[0], text="the"), *name[name[0].text in lexicon.DETERMINERS :]]
+    return [*made, tokens[-1]]
 
 
 def _stacked(intro: list[Token]) -> list[Token]:

@@ -38,6 +38,10 @@ not far from = near
 not far away from = near
 the near left/right/corner/edge/side/end = the front 1
 in/on there = 1 it
+compose a/an = create 1
+with missing = without
+hang next/beside/above/over/under/below/behind/near = hangs 1
+all stand on/in/near/next = all are 1
 there appears/appear/seems/seem/happens to be = there is
 the same size/height/length/width as = as big as
 in/with different colors/colours = of different 2
@@ -109,6 +113,7 @@ _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
 _OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
+_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -122,9 +127,23 @@ def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "one after the other: put the cup away" as "put the cup away"."""
+    """`tokens` with "one after the other: put the cup away" as "put the cup away", "set up a desk" as "create ..."."""
     words = [token.text for token in tokens]
+    at = next((n for n, word in enumerate(words) if word not in _ASKING), 0)
+    if words[at : at + 2] in (["set", "up"], ["put", "together"]) and words[at + 2] not in lexicon.DEFINITE:
+        return [*tokens[:at], replace(tokens[at], text="create"), *tokens[at + 2 :]]
     opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
+    at = 1 + (words[:2] == ["do", "not"])
+    forbids = (at == 2 or words[0] in ("don't", "never")) and words[at] in ("use", "add")
+    if forbids and words[at + 1] in ("a", "an", "any") and not {"to", ","} & {*words}:
+        # "Don't use a tray": there is none.
+        return [*(replace(tokens[0], text=word) for word in ("there", "is", "no")), *tokens[at + 2 :]]
+    told = len(words) > 6 and "and" in words and base_verb(words[0]) == words[0]
+    if told and words[-2] == "that" and link_at(tokens, len(words) - 3):
+        # "Put the mat on the desk and the cup on that": on what is put there.
+        return [*tokens[:-2], replace(tokens[-2], text="it"), tokens[-1]]
+    if tuple(words[-3:-1]) in (("after", "that"), ("after", "this")) and len(words) > 5:
+        return [*tokens[:-3], tokens[-1]]  # "clear the tray after that"
     return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 

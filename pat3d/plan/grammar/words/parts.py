@@ -18,7 +18,8 @@ _HAD = """
     drawstring eyelet fang feather filament flame fretboard fringe gemstone grip hair headlight headrest heel
     hem hilt hood hoof hooves hull jewel keypad lapel latch lever lining mast monogram motif muzzle neck numeral
     peak pendant pistil plume pommel propeller rivet roof rotor ruffle rung saddle shaft shoelace snout spike spoke
-    stopper stud tassel thorn tongue tread trigger tusk visor waistband wax windscreen windshield
+    stopper stud tassel thorn tongue tread trigger tusk visor waistband wax windscreen windshield hole topping
+    linen sheet linens bedding panel panelling paneling pump upholstery
 """
 HAD = frozenset(_HAD.split())
 """Names of parts of what is said to have them: "a belt with a buckle"; by itself each is a thing that no source has."""

@@ -62,7 +62,7 @@ _DOINGS = _words("""
     trim try tuck tug tumble turn twinkle twirl twist understand undo unfold unload unlock unpack unplug unscrew
     unstack untangle untie unveil unwind unwrap use utilise utilize vanish vary verify view visit wait wake walk
     wander want warm warn wash waste watch wave wear weave weigh welcome whisper wiggle win wipe wish withdraw
-    withstand wobble wonder work worry wrap wrestle write yawn yield
+    withstand wobble wonder work worry wrap wrestle write yawn yield stream purr tick snore hum
 """)  # fmt: skip
 """Verbs, whether or not a task does what they say."""
 _IRREGULAR = {

@@ -21,8 +21,8 @@ _ALIASES = {
     "orange pepper": "bell pepper",
     **{f"{brand}{can}": "soda can" for can in ("", " can") for brand in
        ("red bull", "redbull", "pepsi", "sprite", "fanta", "7up", "coca cola", "coca-cola", "coke cola")},
-    "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat",
-    "sweet pepper": "bell pepper", "candelabra": "candlestick", "platter": "plate",
+    "coke": "soda can", "sushi mat": "placemat", "bamboo mat": "placemat", "pea": "marble",
+    "sweets": "candies", "sweet pepper": "bell pepper", "candelabra": "candlestick", "platter": "plate",
 }  # fmt: skip
 """Words for what the catalogue knows by another name."""
 _NO_SLIPS = frozenset({"stair", "stock", "sconce", "breaker", "blinder", "tuner", "caster", "chord", "bowel", "maker",
@@ -126,7 +126,8 @@ class Nouns:
                 return Match(noun=single.noun, said=spelled if whole else name, plural=not (whole or one))
             # Of the guesses the likelier first: capes are no caps.
             if known is None and name in self._aliases and (found := self.match(self._aliases[name].split())):
-                return Match(noun=found.noun, said=name, plural=name != spelled)
+                several = found.plural and name == spelled
+                return Match(noun=found.noun, said=found.said if several else name, plural=several or name != spelled)
         if known is None and "-" in spelled:
             return self.match(spelled.replace("-", " ").split())
         return None if known is None else Match(noun=known.noun, said=spelled, plural=spelled in known.plurals)
@@ -208,6 +209,9 @@ class Nouns:
         doubled = f"{word}{word[-1:]}"
         if len(word) < _LONG_ENOUGH and self.match([doubled]) and not self.match([word]):
             return (doubled,)
+        if word.endswith("ve") and (single := next((one for one in singulars(f"{word}s") if self.match([one])), None)):
+            # "A knive"
+            return (single,)
         if len(word) < _LONG_ENOUGH or not word.isalpha() or {word, *singulars(word)} & _NO_SLIPS:
             return ()
         long = len(word) > _LONG_ENOUGH
