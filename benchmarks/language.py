@@ -115,9 +115,8 @@ def _wanted(phrase: str) -> Wanted:
             nouns |= {found for each in GENERICS.get(kind, ()) if (found := _NOUNS.resolve(each))}
         elif match := _NOUNS.match(said.split()):
             nouns.add(match.noun)
-    nouns |= {
-        wide for narrow, wide in _ALSO_MADE if narrow in nouns and not (wide == DRAWER_CABINET and DRAWER in nouns)
-    }
+    made = {wide for narrow, wide in _ALSO_MADE if narrow in nouns}
+    nouns |= made - {DRAWER_CABINET} if DRAWER in nouns else made
     return Wanted(
         nouns=frozenset(nouns), words=" ".join(words), count=count, colours=frozenset(colours), optional=optional
     )

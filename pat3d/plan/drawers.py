@@ -58,9 +58,8 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
         named = " and ".join(dict.fromkeys(f'"{one.phrase}"' for one in drawers))
         notes.append(f"{named}: what it is in is not said; a cabinet is made.")
     elif known is None or known.noun != DRAWER_CABINET:
-        notes.append(
-            f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)} slides.'
-        )
+        named = said if known is None else known.phrase
+        notes.append(f'"{named}" is made as a cabinet of three rows, of which {_listed(rows)} slides.')
     for one in drawers:
         told = one.phrase.lower().split()
         notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
@@ -145,7 +144,7 @@ def _is_open(plan: ScenePlan, drawer: PlannedObject, notes: list[str]) -> bool:
     said = {*drawer.adjectives, *drawer.phrase.lower().split()}
     if moved or said & {"open", "opened", "closed", "shut"}:
         return moved == "close" or (not moved and bool(said & {"open", "opened"}))
-    held = any(rel.supports and rel.parent == drawer.name for rel in plan.relations)
+    held = any(rel.kind == "in" and rel.parent == drawer.name for rel in plan.relations)
     if held or any(drawer.name in names[1:] for _, *names in steps):
         notes.append(f'"{drawer.phrase}" is made open, as what is in it is reached so.')
         return True

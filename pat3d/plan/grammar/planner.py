@@ -184,7 +184,8 @@ class GrammarPlanner(Sparing):
         words = [token.text for token in tokenise(normalise(prompt))]
         pairs = [*zip(words, words[1:], strict=False), *((word,) for word in words)]
         found = ((" ".join(pair), self._nouns.match(pair)) for pair in pairs)
-        return next((said for said, match in found if match is not None and match.noun in CABINETS), "")
+        owners = (said for said, match in found if match is not None and match.noun in CABINETS)
+        return next((said for said in owners if not said.startswith("drawer")), "")
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, without its remarks where they cannot be read.

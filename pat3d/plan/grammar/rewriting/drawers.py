@@ -12,7 +12,7 @@ from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _COUNTED = {
-    (number, "from", "the", end): row
+    f"{number} from the {end}": row
     for end, rows in (("top", ("top", "middle", "bottom")), ("bottom", ("bottom", "middle", "top")))
     for number, row in zip(("first", "second", "third"), rows, strict=True)
 }
@@ -27,7 +27,7 @@ def drawer_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the top drawer of the cabinet" as "the top drawer": what it is in is made with it."""
     words = [token.text for token in tokens]
     for at in (at for at, word in enumerate(words) if word == "drawer"):
-        row = _COUNTED.get((words[at - 1], *words[at + 1 : at + 4]))
+        row = _COUNTED.get(" ".join([words[at - 1], *words[at + 1 : at + 4]]))
         if row:
             return drawer_of(
                 [*tokens[: at - 1], replace(tokens[at - 1], text=row), tokens[at], *tokens[at + 4 :]], nouns

@@ -60,8 +60,9 @@ def _behind(tokens: Sequence[Token], opens: Callable[[int], bool]) -> list[Token
 
     So is "... before closing it" as "... and then close it"; None where nothing is said so.
     """
+    leads = {*_LEADS, "it", "them"}
     at = next((n for n in range(2, len(tokens) - 3) if tokens[n].text in ("before", "after")
-               and tokens[n + 1].text.endswith("ing") and tokens[n + 2].text in {*_LEADS, "it", "them"}), 0)  # fmt: skip
+               and tokens[n + 1].text.endswith("ing") and tokens[n + 2].text in leads), 0)  # fmt: skip
     verb = base_verb(tokens[at + 1].text) if at else None
     marked = any(token.mark for token in tokens[:-1])
     if verb is None or marked or not opens(0) or any(token.text in ("and", "then") for token in tokens):
