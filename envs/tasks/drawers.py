@@ -101,9 +101,11 @@ class _Sliding(Task):
     def needs(self, scene: Scene) -> Needs:
         pose, rail = scene[self.target].pose, rail_of(scene, self.target)
         front = scene[rail.cabinet].pose.rotation @ np.array([0.0, -1.0, 0.0])
+        out = out_at_rest(scene, self.target)
+        # An earlier step of a chain brings it to where this one begins.
+        begin = WANTED["close" if self.kind == "open" else "open"] * rail.whole if self._done(out / rail.whole) else out
         start = pose.apply(at_handle(scene[self.target].asset, self.kind)[None])[0]
-        way = WANTED[self.kind] * rail.whole - out_at_rest(scene, self.target)
-        ends = (start, start + way * front)
+        ends = (start + (begin - out) * front, start + (WANTED[self.kind] * rail.whole - out) * front)
         visit = tuple(point([*end[:2], end[2] + up]) for end in ends for up in (0.0, HANDLE_ABOVE))
         return Needs(push=(self.target,), visit=visit, side=float(np.arctan2(front[1], front[0])))
 
