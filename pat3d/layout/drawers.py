@@ -14,7 +14,7 @@ from pat3d.layout.group import Group
 from pat3d.scene.asset import Asset
 
 CABINET, SHUT, OPEN = "drawer cabinet", "drawer", "open drawer"
-PULLED = 0.42
+PULLED = 0.38
 """Share of its depth by which an open drawer is out: its centre of mass stays over the floor that it slides on."""
 HAND = 0.06
 """Before a handle, for a hand [m]."""

@@ -9,7 +9,7 @@ from pat3d.assets.catalogue.joinery import cavity, shelf_top, span
 from pat3d.assets.catalogue.registry import Build, Style, entry
 from pat3d.assets.shapes import box, join, tray
 
-WIDTH, DEPTH, HEIGHT = 0.42, 0.38, 0.44
+WIDTH, DEPTH, HEIGHT = 0.42, 0.46, 0.44
 """Of the cabinet [m]."""
 LEVELS = ("top", "middle", "bottom")
 """Its rows, from above; those of the adjectives are open in front, else the first."""
@@ -25,7 +25,7 @@ REACH, BAR = 0.06, 0.012
 """Between front and bar of a handle, where fingers go, and the bar's thickness [m]."""
 SIDES = 0.05
 """Height of its sides, which are lower than its front, so that a hand gets to what is in it [m]."""
-OUTSIDE = 0.14
+OUTSIDE = 0.18
 """Depth of what is in the open of a drawer that is pulled out [m]."""
 GRIP = 0.8
 """Height of the bar as a share of the drawer's."""
