@@ -68,7 +68,7 @@ def in_cabinets(plan: ScenePlan, said: str = "", colours: tuple[str, ...] = ()) 
         notes.append(f"{named}: what it is in is not said; a cabinet is made.")
     elif known is None or known.noun != DRAWER_CABINET:
         notes.append(
-            f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)} {"slides" if len(rows) == 1 else "slide"}.'
+            f'"{said if known is None else known.phrase}" is made as a cabinet of three rows, of which {_listed(rows)}.'
         )
     notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
               for one in drawers for word in ("left", "right") if word in one.phrase.lower().split()]  # fmt: skip
@@ -175,4 +175,5 @@ def _place(rows: dict[str, str]):
 
 def _listed(rows: dict[str, str]) -> str:
     named = [f"the {row}" for row in _ROWS if row in rows.values()]
-    return re.sub(r", (?=[^,]*$)", " and ", ", ".join(named))
+    verb = "slides" if len(named) == 1 else "slide"
+    return f"{re.sub(r', (?=[^,]*$)', ' and ', ', '.join(named))} {verb}"
