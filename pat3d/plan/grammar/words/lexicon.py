@@ -196,8 +196,8 @@ DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "t
           "baking tray", "trivet")  # fmt: skip
 """What carries things on top: "in", "with", "holding" and "of" mean "on" there (soap dishes have a hollow: "in")."""
 HOLLOW = ("egg cup", "wok", "bar caddy", "dustpan", "open toolbox", "open treasure chest", "open cookie jar",
-    "colander", "drawer", "open drawer", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug", "vase",
-    "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", "pot", "crate", "bin", "glass", "soap dish", "pan",
+    "colander", "drawer", "open drawer", "drawer organizer", "paper tray", "toy truck", "basket", "bowl", "cup", "mug",
+    "vase", "box", "pen holder", "bucket", "jar", "pool", "inflatable pool", "pot", "crate", "bin", "glass", "soap dish", "pan",
     "saucepan", "wine glass", "teacup", "planter", "flowerpot", "trash can", "wastebasket", "storage box",
     "pencil case", "pencil cup", "tumbler", "storage bin", "laundry basket", "goblet", "pitcher", "jug", "fish bowl",
     "shopping basket", "toothbrush holder", "utensil holder", "fruit bowl", "mixing bowl", "hamper", "picnic basket",
