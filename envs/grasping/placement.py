@@ -259,8 +259,10 @@ def _reached(arm: ArmKinematics, frame: Frame, grasp: Grasp, tip: float, closing
 
 
 def _reaches_point(arm: ArmKinematics, frame: Frame, point: Array, tip: float, side: float | None = None) -> bool:
-    """Whether the hand gets to a point, pointing down; with a `side`, with room to spare, the fingers along the front
-    of what is there."""
+    """Whether the hand gets to a point, pointing down.
+
+    With a `side` it has room to spare, its fingers along the front of what is there.
+    """
     at = frame.local(point + [0.0, 0.0, tip])
     axis = measure_gripper(arm.robot.name).closing_axis
     turns = (math.pi / 2, 0.0, -math.pi / 2, math.pi)

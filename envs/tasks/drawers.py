@@ -11,9 +11,9 @@ import numpy as np
 from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics import predicates
 from pat3d.envs.physics.snapshot import Array
+from pat3d.envs.tasks.judges import REST_SECONDS
 from pat3d.envs.tasks.naming import the
 from pat3d.envs.tasks.paraphrase import worded
-from pat3d.envs.tasks.judges import REST_SECONDS
 from pat3d.envs.tasks.task import Goal, Judge, Slide, Task, Verdicts, movable, point, steps_for
 from pat3d.errors import TaskError
 from pat3d.layout.drawers import pulled, shut_at, slides
@@ -28,6 +28,9 @@ OPENED, SHUT = 0.6, 0.12
 
 WANTED = {"open": 0.85, "close": 0.0}
 """The share to which the scripted policy moves it."""
+
+MOST, ASTRAY = 1.5, 0.02
+"""The share beyond which it is pulled right out, and how far it may be beside its row [m]."""
 
 LEVEL = 0.98
 """Least cosine between the vertical of a drawer now and at the start."""
@@ -162,13 +165,18 @@ class DrawerJudge(Judge):
         self._shut, self._handle = rail.shut, at_handle(scene[name].asset, kind)
         self._targets = np.full(states.count, self._target)
         self._first = out_at_rest(scene, name)
+        pose, own = scene[name].pose, scene[rail.cabinet].pose
+        self._row = (own.rotation.T @ (np.array(pose.position) - np.array(own.position)))[[0, 2]]
 
     def update(self, seconds: Array) -> Verdicts:
         now, count = self.states.snapshot, self.states.count
-        depth = now.xmat[:, self._cabinet].reshape(count, 3, 3)[:, :, 1]
-        out = self._shut - ((now.xpos[:, self._body] - now.xpos[:, self._cabinet]) * depth).sum(axis=1)
+        frame = now.xmat[:, self._cabinet].reshape(count, 3, 3)
+        depth = frame[:, :, 1]
+        within = np.einsum("wji,wj->wi", frame, now.xpos[:, self._body] - now.xpos[:, self._cabinet])
+        out = self._shut - within[:, 1]
         share = out / self._whole
-        there = share >= OPENED if self._kind == "open" else share <= SHUT
+        there = (share >= OPENED) & (share <= MOST) if self._kind == "open" else share <= SHUT
+        there &= np.abs(within[:, [0, 2]] - self._row).max(axis=1) <= ASTRAY
         level = (now.xmat[:, self._body, 6:] * now.start_up[:, self._target]).sum(axis=1) >= LEVEL
         free = ~now.touching[:, predicates.ROBOT_ROW, predicates.OWNERS + self._target]
         still = np.array([predicates.still(now, world, self._target) for world in range(count)])

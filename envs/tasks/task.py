@@ -187,8 +187,10 @@ class Task(ABC):
         """
 
     def slide(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Slide | None:
-        """The drawer to move next, before any of the `goals`; None for most. Arguments as of these, and `done` holds
-        the specifications of what was opened or shut already."""
+        """The drawer to move next, before any of the `goals`; None for most.
+
+        Arguments as of these, and `done` holds the specifications of what was opened or shut already.
+        """
         return None
 
     @abstractmethod

@@ -6,9 +6,10 @@ import re
 from collections.abc import Mapping
 from dataclasses import replace
 
+from pat3d.errors import PromptError
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.relations import GROUND, Relation
-from pat3d.scene.task_spec import renamed, steps_of
+from pat3d.scene.task_spec import AND_THEN, CHAIN, renamed, steps_of
 
 DRAWER, OPEN_DRAWER, DRAWER_CABINET = "drawer", "open drawer", "drawer cabinet"
 """Catalogue nouns."""
@@ -27,17 +28,25 @@ ROW_WORDS = frozenset({*(word for words in _ROWS.values() for word in words), "o
 """What tells one drawer from another, and how it is."""
 
 
-def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
+def in_cabinets(plan: ScenePlan, said: str = "", colours: tuple[str, ...] = ()) -> ScenePlan:
     """`plan` with its drawers in a cabinet, which is made where none is named; as it is where there are none.
 
-    `said` is what the prompt calls the furniture that they are in.
+    `said` is what the prompt calls the furniture that they are in, `colours` those that it gives it.
 
     What is in a drawer or to be put there is reached when that is open, unless the task opens it first.
+
+    Raises:
+        PromptError: there are more drawers than a cabinet has rows.
     """
     drawers = [obj for obj in plan.objects if obj.noun in DRAWERS]
-    if not 0 < len(drawers) <= len(_ROWS):
+    if not drawers:
         return plan
+    if len(drawers) > len(_ROWS):
+        raise PromptError(
+            f"{len(drawers)} drawers: a cabinet has {len(_ROWS)} rows. Name at most {len(_ROWS)} of them."
+        )
     below = {rel.child: rel for rel in plan.relations if rel.supports}
+    plan = _beside_cabinet(plan, [one.name for one in drawers], _cabinet(plan, said, colours).name)
     rows = _rows(drawers)
     called = {one.name: f"{row} drawer" for one in drawers if (row := _row_said(one)) is not None}
     if (
@@ -48,7 +57,7 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
         plan = _renamed(plan, called)
         drawers = [obj for obj in plan.objects if obj.noun in DRAWERS]
         rows = {called.get(name, name): row for name, row in rows.items()}
-    cabinet, notes = _cabinet(plan, drawers, said), list[str]()
+    cabinet, notes = _cabinet(plan, said, colours), list[str]()
     made = [replace(one, noun=OPEN_DRAWER if _is_open(plan, one, notes) else DRAWER, scale=cabinet.scale,
                     colours=one.colours or cabinet.colours, material=one.material or cabinet.material)
             for one in drawers]  # fmt: skip
@@ -59,7 +68,7 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
         notes.append(f"{named}: what it is in is not said; a cabinet is made.")
     elif known is None or known.noun != DRAWER_CABINET:
         named = said if known is None else known.phrase
-        notes.append(f'"{named}" is made as a cabinet of three rows, of which {_listed(rows)} slides.')
+        notes.append(f'"{named}" is made as a cabinet of three rows, of which {_listed(rows)}.')
     for one in drawers:
         told = one.phrase.lower().split()
         notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
@@ -88,17 +97,29 @@ def in_cabinets(plan: ScenePlan, said: str = "") -> ScenePlan:
     return replace(plan, objects=tuple(objects), relations=tuple(dict.fromkeys(relations)), notes=(*plan.notes, *notes))
 
 
-def _cabinet(plan: ScenePlan, drawers: list[PlannedObject], said: str) -> PlannedObject:
+def _cabinet(plan: ScenePlan, said: str, colours: tuple[str, ...]) -> PlannedObject:
     """The furniture of `plan` that has the drawers, as a cabinet; a new one where there is none, or more than one."""
     owners = [obj for obj in plan.objects if obj.noun in CABINETS]
-    carrying = {rel.parent for rel in plan.relations if rel.child in {one.name for one in drawers}}
+    drawers = {obj.name for obj in plan.objects if obj.noun in DRAWERS}
+    carrying = {rel.parent for rel in plan.relations if rel.supports and rel.child in drawers}
     owners = [obj for obj in owners if obj.name in carrying] or owners
     if len(owners) == 1:
-        return replace(owners[0], noun=DRAWER_CABINET, extent=None)
+        return replace(owners[0], noun=DRAWER_CABINET, extent=None, colours=owners[0].colours or colours)
     taken = {obj.name for obj in plan.objects}
     name = next(name for name in (said or "cabinet", "drawer cabinet", *(f"cabinet {n}" for n in range(2, 99)))
                 if name not in taken)  # fmt: skip
-    return PlannedObject(name=name, noun=DRAWER_CABINET, phrase=said, colours=drawers[0].colours)
+    return PlannedObject(name=name, noun=DRAWER_CABINET, phrase=said, colours=colours)
+
+
+def _beside_cabinet(plan: ScenePlan, drawers: list[str], cabinet: str) -> ScenePlan:
+    """`plan` whose task puts beside the cabinet what it said to put beside a drawer, which stands nowhere by itself."""
+    if plan.task is None:
+        return plan
+    steps = [
+        [*step[:3], cabinet] if step[0] == "beside" and step[-1] in drawers else step for step in steps_of(plan.task)
+    ]
+    told = AND_THEN.join(":".join(step) for step in steps)
+    return replace(plan, task=f"{CHAIN}:{told}" if len(steps) > 1 else told)
 
 
 def _rows(drawers: list[PlannedObject]) -> dict[str, str]:
@@ -157,4 +178,5 @@ def _place(rows: dict[str, str]):
 
 def _listed(rows: dict[str, str]) -> str:
     named = [f"the {row}" for row in _ROWS if row in rows.values()]
-    return re.sub(r", (?=[^,]*$)", " and ", ", ".join(named))
+    verb = "slides" if len(named) == 1 else "slide"
+    return f"{re.sub(r', (?=[^,]*$)', ' and ', ', '.join(named))} {verb}"

@@ -121,7 +121,8 @@ def test_same_seed_same_bits_and_other_seed_other_shape(noun):
     assert first.visual.vertices.tobytes() == again.visual.vertices.tobytes()
     assert first.visual.texture.tobytes() == again.visual.texture.tobytes()
     assert all(a.vertices.tobytes() == b.vertices.tobytes() for a, b in zip(first.parts, again.parts, strict=True))
-    assert not np.allclose(first.size, other.size, rtol=1e-4)
+    # Drawers fit their cabinet whatever the seed is.
+    assert np.allclose(first.size, other.size, rtol=1e-4) == (noun in {"drawer", "open drawer", "drawer cabinet"})
 
 
 @pytest.mark.parametrize("noun", sampled(NOUNS))

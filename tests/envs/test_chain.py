@@ -31,8 +31,8 @@ def test_a_chain_survives_its_specification():
     [
         ("chain:pick:a", "2 to 5 steps"),
         ("chain:" + ":then:".join(f"pick:{k}" for k in range(6)), "2 to 5 steps"),
-        ("chain:pick:a:then:place:b:c", "steps put, stack or lift, the last may pick"),
-        ("chain:place:a:b:then:sort", "steps put, stack or lift"),
+        ("chain:pick:a:then:place:b:c", "steps put, stack, lift, open or close, the last may pick"),
+        ("chain:place:a:b:then:sort", "steps put, stack, lift, open or close"),
         ("chain:place:a:b:then:place:a:c", "another object"),
         ("chain:place:a:b:then:chain:pick:c", "no step of a chain"),
         ("chain:place:a:then:pick:c", "does not fit"),

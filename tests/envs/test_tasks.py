@@ -223,6 +223,8 @@ def test_every_possible_task_can_be_written_down_and_read_again(breakfast):
         "rearrange",
         "push",
         "beside",
+        "open",
+        "close",
         "carry",
         "handover",
     }

@@ -48,7 +48,11 @@ def test_what_is_taken_away_from_a_table_is_on_it_before():
 
 def test_a_drawer_is_no_shelf():
     plan = PLANNER.plan("Put forks in the drawer and cups on the shelf.")
-    assert [obj.name for obj in plan.objects if "fork" not in obj.name and "cup" not in obj.name] == ["cabinet", "drawer", "shelf"]
+    assert [obj.name for obj in plan.objects if "fork" not in obj.name and "cup" not in obj.name] == [
+        "cabinet",
+        "drawer",
+        "shelf",
+    ]
 
 
 @pytest.mark.parametrize(

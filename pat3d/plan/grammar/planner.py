@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from pat3d.assets.colours import COLOURS
 from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
@@ -159,7 +160,7 @@ class GrammarPlanner(Sparing):
         Raises:
             PromptError: the sentence leaves open what is to be there.
         """
-        sentence = listed_plainly(drawer_of(drawers_moved(sentence), self._nouns), self._nouns)
+        sentence = listed_plainly(drawers_moved(drawer_of(sentence, self._nouns)), self._nouns)
         sentence, denials = without_denials(varied(told_rows(sentence, self._nouns), self._nouns), self._nouns)
         sentence, manners = without_manners(sentence, self._nouns)
         denied = tuple(quoted(text, span) for span in (*denials, *manners))
@@ -175,17 +176,20 @@ class GrammarPlanner(Sparing):
             self._orders.keep(obj.noun for obj in plan.objects)
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
-        plan = in_cabinets(plan, self._cabinet_said(prompt))
+        plan = in_cabinets(plan, *self._cabinet_said(prompt))
         plan = audited(plan, self._nouns.resolve, lexicon.FLOOR, self._likely.carried)
         return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *put_otherwise(world, names)))))
 
-    def _cabinet_said(self, prompt: str) -> str:
-        """What `prompt` calls the furniture that drawers are in; nothing where it names none."""
+    def _cabinet_said(self, prompt: str) -> tuple[str, tuple[str, ...]]:
+        """What `prompt` calls the furniture that drawers are in, and its colours; nothing where it names none."""
         words = [token.text for token in tokenise(normalise(prompt))]
-        pairs = [*zip(words, words[1:], strict=False), *((word,) for word in words)]
-        found = ((" ".join(pair), self._nouns.match(pair)) for pair in pairs)
-        owners = (said for said, match in found if match is not None and match.noun in CABINETS)
-        return next((said for said in owners if not said.startswith("drawer")), "")
+        for length in (2, 1):
+            for at in range(len(words) - length + 1):
+                found = self._nouns.match(words[at : at + length])
+                if found is not None and found.noun in CABINETS and words[at] not in ("drawer", "drawers"):
+                    before = words[at - 1] if at else ""
+                    return " ".join(words[at : at + length]), (before,) if before in COLOURS else ()
+        return "", ()
 
     def _read(self, text: str, clause: Clause, world: World, company: Collection[str]) -> tuple[World, World | None]:
         """`world` with what `clause` says, without its remarks where they cannot be read.

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import AnswerError, PromptError, SpecError
+from pat3d.plan.drawers import in_cabinets
 from pat3d.plan.grammar.meaning.world import MAX_OBJECTS
 from pat3d.plan.grammar.words.measures import LARGEST, SMALLEST
 from pat3d.plan.llm.chat import Chat, Message
@@ -128,7 +129,7 @@ class LLMPlanner:
         def made(data: Any) -> Answer:
             missing = tuple(data.get("missing", ()))
             # What is missing is said before a plan without it is looked at.
-            return replace(_NONE, missing=missing) if missing else _checked(shape.made(Answer, data))
+            return replace(_NONE, missing=missing) if missing else _slid(_checked(shape.made(Answer, data)))
 
         before = self._chat.usage.as_dict()
         answer = self._chat.ask(messages, shape, made=made)
@@ -210,12 +211,24 @@ def _checked(answer: Answer) -> Answer:
     faults += _not_held(plan)
     if plan.task is not None and not _is_task(plan.task, names):
         faults.append(
-            f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, beside:A:left_of:B, unload:A, sort or '
-            "chain:STEP:then:STEP, with names of objects."
+            f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, beside:A:left_of:B, unload:A, sort, '
+            "open:DRAWER, close:DRAWER or chain:STEP:then:STEP, with names of objects."
         )
     if faults:
         raise AnswerError("\n".join(faults))
     return answer
+
+
+def _slid(answer: Answer) -> Answer:
+    """`answer` with its drawers in a cabinet.
+
+    Raises:
+        AnswerError: there are too many of them.
+    """
+    try:
+        return replace(answer, plan=in_cabinets(answer.plan))
+    except PromptError as error:
+        raise AnswerError(str(error)) from error
 
 
 def _is_task(task: str, names: Collection[str]) -> bool:
