@@ -262,7 +262,9 @@ class ScriptedPolicy:
         action, error = self._servo.towards(move.at + [0.0, 0.0, height], self._rotation, 1.0)
         error += self._height - height
         self._steps += 1
-        if move.spot is not None and (error < ON_THE_WAY or self._steps > PATIENCE):
+        # What is lifted gently over something high takes longer.
+        patience = max(PATIENCE, 1.2 * self._height / self._lift_step)
+        if move.spot is not None and (error < ON_THE_WAY or self._steps > patience):
             self._aim(move.spot)
             self._enter("carry")
             return None
