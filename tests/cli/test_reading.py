@@ -13,11 +13,11 @@ TWO_READINGS = "a mug facing a laptop on a desk"
 
 
 def test_plan_prints_the_telling_the_tree_the_notes_and_the_task(capsys):
-    assert main(["plan", "put the soup in the basket and open the drawer"]) == 0
+    assert main(["plan", "put the soup in the basket and open the wardrobe"]) == 0
     told, _, rest = capsys.readouterr().out.partition("\n\n")
-    assert told.startswith("A tomato soup, a basket and a dresser stand on the ground.") or "tomato soup" in told
+    assert told.startswith("A tomato soup, a basket and a wardrobe stand on the ground.") or "tomato soup" in told
     assert "ground\n  tomato soup\n  basket" in rest
-    assert 'note: not modelled: "open the drawer": no task does that.' in rest
+    assert 'note: not modelled: "open the wardrobe": no task does that.' in rest
     assert "task: place:tomato soup:basket" in rest
 
 

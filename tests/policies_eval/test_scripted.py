@@ -116,10 +116,10 @@ class World:
         return SimpleNamespace(
             control="osc",
             robot="",
-            task=SimpleNamespace(kind="pick"),
+            task=SimpleNamespace(kind="pick", slide=lambda *_: None),
             scene=self.scene,
             simulation=simulation,
-            placement=SimpleNamespace(surface=0.0),
+            placement=SimpleNamespace(surface=0.0, grasps={}),
         )
 
 
