@@ -174,7 +174,9 @@ class ScriptedPolicy:
     def _slid(self) -> NDArray[np.float32] | None:
         self._steps += 1
         if self._steps > SETTLE_STEPS:
-            if self._env.task.slide(self._env.simulation.state, (), self._planner.put) is None:
+            grasps = tuple(self._env.placement.grasps)
+            left = self._env.task.slide(self._env.simulation.state, grasps, self._planner.put)
+            if left is None or left.spec != self._slide.spec:
                 self._planner.put.add(self._slide.spec)
             self._begin()
             return None

@@ -99,6 +99,17 @@ def test_what_a_chain_opens_and_then_shuts_need_not_stay_open(env, shut):
     assert info["predicates"]["kept"]
 
 
-@pytest.mark.slow
-def test_the_scripted_policy_opens_a_drawer(env):
-    assert scripted(env, "open:drawer 0")["success"]
+@pytest.mark.parametrize(
+    ("share", "aside", "there"), [(0.9, 0.0, True), (1.6, 0.0, False), (0.9, 0.03, False), (1.4, 0.01, True)]
+)
+def test_it_is_open_neither_right_out_nor_beside_its_row(env, shut, share, aside, there):
+    env.reset(seed=0, options={"task": "open:drawer 0"})
+    drawer, turned = shut["drawer 0"], shut["cabinet"].pose.rotation
+    way = turned @ [aside, -share * pulled(drawer.asset), 0.0]
+    info = put(env, "drawer 0", np.array(drawer.pose.position) + way, drawer.pose.quat_wxyz)
+    assert info["predicates"]["open"] == there
+
+
+@pytest.mark.parametrize("spec", ["open:drawer 0", "chain:open:drawer 0:then:close:drawer 0"])
+def test_the_scripted_policy_opens_a_drawer_and_shuts_it(env, spec):
+    assert scripted(env, spec)["success"]
