@@ -99,9 +99,7 @@ def test_what_a_chain_opens_and_then_shuts_need_not_stay_open(env, shut):
     assert info["predicates"]["kept"]
 
 
-@pytest.mark.parametrize(
-    ("share", "aside", "there"), [(0.9, 0.0, True), (1.6, 0.0, False), (0.9, 0.03, False), (1.4, 0.01, True)]
-)
+@pytest.mark.parametrize(("share", "aside", "there"), [(0.9, 0.0, True), (1.6, 0.0, False), (0.9, 0.6, False)])
 def test_it_is_open_neither_right_out_nor_beside_its_row(env, shut, share, aside, there):
     env.reset(seed=0, options={"task": "open:drawer 0"})
     drawer, turned = shut["drawer 0"], shut["cabinet"].pose.rotation
