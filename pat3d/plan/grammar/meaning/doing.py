@@ -348,11 +348,9 @@ class Doing(Placing):
             # "Clear the desk: put the cups on the tray": from the desk.
             self._world.emptied = children
             return
-        said, items, goal = self._clause.said, tuple(children), tuple(parents)
-        verb = self._clause.verb
-        self._world.steps.append(
-            Step(manner=manner, said=said, verb=verb, part=part, items=items, link=link, goal=goal)
-        )
+        said, verb, items, goal = self._clause.said, self._clause.verb, tuple(children), tuple(parents)
+        step = Step(manner=manner, said=said, verb=verb, part=part, items=items, link=link, goal=goal)
+        self._world.steps.append(step)
 
     def _is_items(self, heads: Sequence[int]) -> bool:
         """Whether one of `heads` is "everything" or "the things"."""

@@ -106,9 +106,8 @@ class Maker:
             shaded = word not in ("light", "pale") or phrase.modifiers.colours or phrase.modifiers.material
             if word in lexicon.SAID_OTHERWISE or (word in lexicon.SHADE_WORDS and shaded):
                 continue
-            if phrase.noun in DRAWERS and word in ROW_WORDS:
-                continue
-            if word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word):
+            row = phrase.noun in DRAWERS and word in ROW_WORDS
+            if row or (word in lexicon.HONOURED and self._nouns.takes(phrase.noun, word)):
                 continue
             full = self._nouns.match([word, *phrase.said.split()]) if word in lexicon.SUBSTANCES else None
             if word in (phrase.said or phrase.noun).split() or (full and full.noun == phrase.noun):
