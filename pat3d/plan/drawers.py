@@ -73,6 +73,8 @@ def in_cabinets(plan: ScenePlan, said: str = "", colours: tuple[str, ...] = ()) 
         told = one.phrase.lower().split()
         notes += [f'not modelled: "{word}" of "{one.phrase}": drawers are above one another.'
                   for word in ("left", "right") if word in told]  # fmt: skip
+        notes += [f'not modelled: "{word}" of "{one.phrase}": a cabinet has three rows.'
+                  for word in ("fourth", "fifth", "sixth") if word in told]  # fmt: skip
         if "other" in told and len(drawers) == 1:
             notes.append(f'not modelled: "other" of "{one.phrase}": there is one.')
     own = {one.name for one in drawers}

@@ -28,7 +28,7 @@ _PLURALS = {"mouse": "mice", "knife": "knives", "loaf": "loaves", "shelf": "shel
             "scarf": "scarves", "wolf": "wolves", "elf": "elves", "sheep": "sheep", "deer": "deer",
             "lens": "lenses", "fish": "fish", "bread": "loaves of bread"}  # fmt: skip
 _PLURAL_ONLY = re.compile(r"dice|.*[^suioa]s")
-"""Names that are plurals as they stand: scissors, drawers, but not glass, cactus, thermos."""
+"""Names that are plurals as they stand: scissors, tongs, but not glass, cactus, thermos."""
 _MASSES = frozenset({
     "flour", "bread", "cheese", "butter", "toothpaste", "soap", "ketchup", "mustard", "sugar", "rice", "tofu", "salmon",
     "broccoli", "lettuce", "celery", "garlic", "chocolate", "popcorn", "ham", "meat", "pasta", "cereal", "milk", "wine",

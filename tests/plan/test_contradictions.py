@@ -90,4 +90,9 @@ def test_a_verb_behind_a_relative_clause_is_noted():
 
 
 def test_names_that_are_plurals_have_no_other():
-    assert tell(PLANNER.plan("Three drawers.")) == "Three drawers stand on the ground."
+    assert tell(PLANNER.plan("Three tongs.")) == "Three tongs stand on the ground."
+
+
+def test_drawers_are_drawers_and_no_more_than_a_cabinet_has():
+    assert tell(PLANNER.plan("Three drawers.")) == "A cabinet stands on the ground. Three drawers are in the cabinet."
+    assert any('"fourth"' in note for note in PLANNER.plan("Open the fourth drawer.").notes)

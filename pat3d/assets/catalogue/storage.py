@@ -123,7 +123,7 @@ def cabinet(style: Style) -> Build:
 
 
 @entry("dresser", family="storage", material="wood", colours=WOODS, accents=("gold",),
-       synonyms=("chest of drawers", "drawers", "drawer unit", "bureau", "tallboy"))  # fmt: skip
+       synonyms=("chest of drawers", "drawer unit", "bureau", "tallboy"))  # fmt: skip
 def dresser(style: Style) -> Build:
     """A chest of six drawers."""
     return _case(style, 1.05, 0.45, 0.82, columns=2, rows=3, mass=45.0, doors=False)
