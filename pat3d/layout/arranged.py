@@ -18,7 +18,8 @@ from pat3d.layout.formations import FAR, pairs, reach_of_beside
 from pat3d.layout.leaning import covered
 from pat3d.layout.places import ends_hold, offset_on, place_holds
 from pat3d.layout.spans import overhang
-from pat3d.scene.arrangements import Arrangement
+from pat3d.layout.tiers import tier_holds
+from pat3d.scene.arrangements import TIERS, Arrangement
 
 LENS = 135.0
 """Least angle [degrees] at which what is between two things sees them apart."""
@@ -68,6 +69,8 @@ def arrangement_holds(one: Arrangement, bodies: Mapping[str, Placed], touch: flo
         return _in_own_corners(objects, of[0])
     if one.kind == "at_ends":
         return ends_hold(objects, of[0])
+    if one.kind in TIERS:
+        return _every(tier_holds(one.kind, body, of[0]) for body in objects)
     return _every(place_holds(one.kind, [body], of[0]) for body in objects)
 
 

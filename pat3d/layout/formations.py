@@ -117,6 +117,8 @@ class Wishes:
     sights: tuple[Sight, ...] = ()
     places: Mapping[str, str] = field(default_factory=dict)
     """Kind of the place on the surface where things are wanted: at_edge, at_end, in_corner, in_middle."""
+    tiers: Mapping[str, str] = field(default_factory=dict)
+    """Kind of the tier on which things are wanted: on_top_tier, on_bottom_tier and so on."""
 
     @property
     def names(self) -> frozenset[str]:
@@ -137,6 +139,7 @@ class Wishes:
             far=frozenset(pair for pair in self.far if own.issuperset(pair)),
             sights=tuple(one for one in self.sights if {one.observer, one.target} <= own),
             places={name: kind for name, kind in self.places.items() if name in own},
+            tiers={name: kind for name, kind in self.tiers.items() if name in own},
         )
 
 

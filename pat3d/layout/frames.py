@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -35,23 +36,36 @@ def upright(body: Placed) -> bool:
 
 
 def column_of(body: Placed) -> Column | None:
-    """The cavity of an upright body, or None."""
-    region = body.body.asset.region("in")
-    if region is None or not upright(body):
-        return None
-    return Column(
-        centre=body.rotation @ np.array(region.floor) + body.position,
-        half_size=np.array(region.half_size),
-        yaw=yaw_of(body.rotation),
-        disc=region.shape == "disc",
-        height=region.height if math.isfinite(region.height) else float(body.body.asset.size[2]),
-        capped=region.enclosed,
-    )
+    """The cavity of an upright body, or None; of several compartments the first."""
+    return next(iter(columns_of(body)), None)
 
 
-def flat_regions(body: Placed) -> list[FlatRegion]:
+def columns_of(body: Placed) -> list[Column]:
+    """The cavities of an upright body."""
+    return [
+        Column(
+            centre=body.rotation @ np.array(region.floor) + body.position,
+            half_size=np.array(region.half_size),
+            yaw=yaw_of(body.rotation),
+            disc=region.shape == "disc",
+            height=region.height if math.isfinite(region.height) else float(body.body.asset.size[2]),
+            capped=region.enclosed,
+        )
+        for region in body.body.asset.regions
+        if region.kind == "in" and upright(body)
+    ]
+
+
+def column_at(body: Placed, height: float) -> Column | None:
+    """The cavity of an upright body that begins nearest below `height` [m], or else the first; None without."""
+    columns = columns_of(body)
+    below = [column for column in columns if column.centre[2] <= height]
+    return max(below, key=lambda column: float(column.centre[2])) if below else next(iter(columns), None)
+
+
+def flat_regions(body: Placed, kind: Literal["on", "in"] = "on") -> list[FlatRegion]:
     """Floors for children, best first; the top of the bounding box of a body that lies on its side."""
-    regions = [region for region in body.body.asset.regions if region.kind == "on"]
+    regions = [region for region in body.body.asset.regions if region.kind == kind]
     if not upright(body) or not regions:
         half = (body.high - body.low) / 2
         centre = np.array([*(body.low + half)[:2], body.high[2]])

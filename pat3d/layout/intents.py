@@ -20,7 +20,7 @@ from pat3d.layout.group import Group
 from pat3d.layout.leaning import leaning_offset, leaning_offsets, under_offsets
 from pat3d.layout.shelved import holds_books
 from pat3d.layout.tops import item_of
-from pat3d.scene.arrangements import LINES, Arrangement, crossing
+from pat3d.scene.arrangements import LINES, TIERS, Arrangement, crossing
 from pat3d.scene.relations import GROUND, SIDES
 
 _AHEAD = 17.0
@@ -113,7 +113,8 @@ class Intents:
         below: dict[str, list[str]] = {}
         leaners: dict[str, dict[str, tuple[Group, Array]]] = {}
         grids = crossing([row for one in lines if set(row := one.moved(one.arrangement.objects)) <= set(groups)])
-        formations, far, places = [Formation(members=tuple(cells), cells=cells) for cells in grids], set(), {}
+        formations, far = [Formation(members=tuple(cells), cells=cells) for cells in grids], set()
+        places, tiers = {}, {}
         rows = [one for one in self._rows(lines, groups, gap) if not any(set(one.members) <= set(c) for c in grids)]
         formations += rows
         for intent in self.by_surface.get(support, []):
@@ -136,6 +137,8 @@ class Intents:
                 leaners.setdefault(of[0], {})[objects[0]] = (groups[objects[0]], self.leaning[objects[0]])
             elif one.kind == "under":
                 below.setdefault(of[0], []).extend(name for name in objects if name not in below.get(of[0], ()))
+            elif one.kind in TIERS:
+                tiers |= dict.fromkeys(objects, one.kind)
             elif one.rule.on_it:
                 places |= dict.fromkeys(objects, _PLACES.get(one.kind, one.kind))
                 together = one.kind == "in_corner" and len(objects) > 1
@@ -160,7 +163,7 @@ class Intents:
             for one in self._sights.get(support, [])
             if {one.observer, one.target} <= set(groups)
         )
-        return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places)
+        return Wishes(formations=tuple(formations), far=frozenset(far), sights=sights, places=places, tiers=tiers)
 
     def _rows(self, lines: Sequence[Intent], groups: Mapping[str, Group], gap: float) -> list[Formation]:
         """Rows, each with what it is between, and with those leaning that lean on their neighbours."""
@@ -211,7 +214,8 @@ class Intents:
         if one.rule.on_it:
             support = one.of[0]
             astray = [name for name in one.objects if paths[name][1] != support or name in self.spans]
-            if astray or any(kinds[name] != "on" for name in one.objects):
+            upon = ("on", "in") if one.kind in TIERS else ("on",)
+            if astray or any(kinds[name] not in upon for name in one.objects):
                 self.notes.append(f'"{one}" is left aside: not all of it lies on "{support}" alone.')
                 return None
             return Intent(arrangement=one, support=support, stands_for={name: name for name in one.objects})

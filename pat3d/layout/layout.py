@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -210,14 +211,17 @@ class _Arranger:
         kids = self.children[name]
         drawn = [kid for kid in kids if self.kinds[kid] == "in" and slides(self.bodies[kid].asset, root.body.asset)]
         kids = [kid for kid in kids if kid not in drawn]
-        inside = [kid for kid in kids if self.kinds[kid] == "in" and column_of(root) is not None]
+        column = column_of(root)
+        inside = [kid for kid in kids if self.kinds[kid] == "in" and column is not None]
+        housed = inside if column is not None and column.capped else []
         hanging = [kid for kid in kids if self.kinds[kid] == "hangs_from"]
         for kid in kids:
             if self.kinds[kid] == "in" and kid not in inside:
                 self.notes.append(f'"{name}" has no cavity; "{kid}" stands on it.')
         onto = [kid for kid in kids if kid not in inside and kid not in hanging]
         group = self._with(group, slide_in(root, [self._build(kid, 0.0) for kid in drawn], self.gap))
-        group = self._fill(group, inside)
+        group = self._load(group, housed, yaw, "in")
+        group = self._fill(group, [kid for kid in inside if kid not in housed])
         group = self._load(group, onto, yaw)
         group = self._with(group, self._span(name, [group])[1:])
         for kid in hanging:
@@ -258,7 +262,8 @@ class _Arranger:
         )
         return self._with(group, [*given, *stood, *packed])
 
-    def _load(self, group: Group, names: list[str], yaw: float) -> Group:
+    def _load(self, group: Group, names: list[str], yaw: float, kind: Literal["on", "in"] = "on") -> Group:
+        """`group` with `names` on its tops, or on the floors of its compartments."""
         if not names:
             return group
         laterals = [lat for lat in self.laterals.get(group.name, []) if lat.child in names and lat.parent in names]
@@ -266,7 +271,7 @@ class _Arranger:
         free = [kid for kid in names if kid not in self.fixed]
         groups = [self._build(kid, self._yaw(kid, group.name, yaw, laterals)) for kid in free]
         wishes = self._wishes(group.name, {one.name: one for one in groups})
-        regions = flat_regions(group.root)
+        regions = flat_regions(group.root, kind)
         radius = float(regions[0].surface.half_size[0]) if regions[0].surface.disc else None
         settings = place_settings({one.name: one for one in groups}, laterals, wishes, radius=radius)
         angles = {name: angle for one in settings for name, angle in one.turns.items()}

@@ -43,7 +43,7 @@ from pat3d.geometry.polygons import contains, outline
 from pat3d.geometry.pose import Pose
 from pat3d.layout.arranged import arrangement_holds, in_grid
 from pat3d.layout.bodies import Array, Placed, distance, place_all
-from pat3d.layout.frames import column_of
+from pat3d.layout.frames import column_at
 from pat3d.layout.lateral import APART, Box, Seen, next_to, on_side
 from pat3d.scene.arrangements import LINES, Arrangement, Posture, crossing
 from pat3d.scene.asset import Asset
@@ -191,7 +191,7 @@ class _View:
     def _in(self, child: str, parent: str) -> tuple[bool, str]:
         body, holder = self.bodies[child], self.bodies[parent]
         carried, how = self._carried(child, parent)
-        column = column_of(holder)
+        column = column_at(holder, float(body.low[2]) + self.touch)
         if column is None:
             points = np.stack([body.centre_of_mass, [*body.centre_of_mass[:2], body.low[2]]])
             inside = bool(np.all((points >= holder.low - self.touch) & (points <= holder.high + self.touch)))

@@ -25,6 +25,7 @@ from pat3d.layout.place_settings import Setting
 from pat3d.layout.places import pins
 from pat3d.layout.refusals import largest_formation, no_room
 from pat3d.layout.surfaces import NOTHING, arrange_flat
+from pat3d.layout.tiers import meant, tiers
 
 _ROOMY = 2.0
 """Surfaces this many times as long and wide as a thing alone on them have it anywhere."""
@@ -86,11 +87,16 @@ def spread(
         )
     placed: list[Group] = []
     notes: list[str] = []
-    waiting = _shares(top, groups, laterals)
+    homes = _homes(top, groups)
+    waiting = _shares(top, groups, laterals, homes)
     overflow: list[Group] = []
     for region, share in zip(top.regions, waiting, strict=True):
         found, overflow = _as_many(top, region, [*overflow, *share], laterals, placed, rng, notes)
         placed.extend(found)
+        astray = next((group for group in overflow if group.name in homes), None)
+        if astray is not None:
+            before = [group.name for group in (*top.given, *found)]
+            raise no_room(astray, f"the {top.wishes.tiers[astray.name].split('_')[1]} shelf of {top.name}", region, before, None)
     held = {lat.child for lat in laterals} | {lat.parent for lat in laterals} | top.wishes.names
     if overflow or not all(_carried(top, group, placed) for group in placed):
         piled = None if any(group.name in held for group in groups) else _pile(top, groups, rng)
@@ -132,10 +138,36 @@ def item_of(group: Group, *, turnable: bool) -> Item:
     )
 
 
-def _shares(top: Top, groups: Sequence[Group], laterals: Sequence[Lateral]) -> list[list[Group]]:
-    """Groups for every region: shelves share them out, elsewhere the best region takes all it can."""
+def _homes(top: Top, groups: Sequence[Group]) -> dict[str, int]:
+    """The region of every group that is wanted on one tier, by number.
+
+    Raises:
+        LayoutError: there is no such tier.
+    """
+    floors = [float(region.centre[2] - top.root.position[2]) for region in top.regions]
+    homes: dict[str, int] = {}
+    for group in groups:
+        kind = top.wishes.tiers.get(group.name)
+        if kind is None:
+            continue
+        wanted = [region.floor[2] for region in meant(kind, top.root.body.asset)]
+        found = [at for at, floor in enumerate(floors) if any(abs(floor - one) < _LEVEL for one in wanted)]
+        if not found:
+            count = len(tiers(top.root.body.asset))
+            raise LayoutError(
+                f'"{group.name}" cannot be on the {kind.split("_")[1]} shelf of "{top.name}", which has '
+                f"{count or 'no'} {'shelf' if count == 1 else 'shelves'}. Nothing was written."
+            )
+        homes[group.name] = next((at for at in found if _low_enough(top, at, group)), found[0])
+    return homes
+
+
+def _shares(
+    top: Top, groups: Sequence[Group], laterals: Sequence[Lateral], homes: Mapping[str, int]
+) -> list[list[Group]]:
+    """Groups for every region: shelves share them out, elsewhere the best region takes all it can; `homes` are kept."""
     shares: list[list[Group]] = [[] for _ in top.regions]
-    if not top.regions[0].enclosed:
+    if not top.regions[0].enclosed and not homes:
         shares[0] = list(groups)
         return shares
     # Alike or related things stay together.
@@ -147,9 +179,14 @@ def _shares(top: Top, groups: Sequence[Group], laterals: Sequence[Lateral]) -> l
     for one in top.wishes.formations:
         labels = {cluster[name] for name in one.names if name in cluster}
         cluster = {name: min(labels) if label in labels else label for name, label in cluster.items()}
-    turn = itertools.cycle(range(len(top.regions)))
-    home: dict[str, int] = {}
+    turn = itertools.cycle(range(len(top.regions) if top.regions[0].enclosed else 1))
+    home = {cluster[name]: at for name, at in homes.items()}
+    # Alike things may be wanted on different tiers.
+    apart = {cluster[name] for name, at in homes.items() if home[cluster[name]] != at}
     for group in groups:
+        if group.name in homes and cluster[group.name] in apart:
+            shares[homes[group.name]].append(group)
+            continue
         label = cluster[group.name]
         if label not in home:
             home[label] = next((k for k in itertools.islice(turn, len(top.regions)) if _low_enough(top, k, group)), 0)

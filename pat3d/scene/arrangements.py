@@ -17,13 +17,19 @@ from pat3d.scene.relations import GROUND, Relation, carriers_of
 
 ArrangementKind = Literal[
     "between", "far_from", "at_edge", "in_corner", "in_corners", "at_ends", "in_middle", "row", "circle", "facing",
-    "side_by_side", "leaning_against", "under", "across",
+    "side_by_side", "leaning_against", "under", "across", "on_top_tier", "on_second_tier", "on_third_tier",
+    "on_middle_tier", "on_bottom_tier",
 ]  # fmt: skip
 
 PostureKind = Literal["upright", "upside_down", "on_its_side"]
 
 LINES: tuple[ArrangementKind, ...] = ("row", "side_by_side")
 """Kinds in which the objects stand in a line; such lines that cross are a grid."""
+TIERS: dict[str, tuple[int | None, int | None]] = {
+    "on_top_tier": (-1, None), "on_second_tier": (-2, -1), "on_third_tier": (-3, -2), "on_middle_tier": (None, None),
+    "on_bottom_tier": (0, 1),
+}  # fmt: skip
+"""Kinds that tell one of the tiers of a shelf, and the slice of these from below; None for all that are not outermost."""
 MANY = 100
 
 
@@ -145,6 +151,20 @@ ARRANGEMENTS: dict[str, ArrangementRule] = {
         holds="seen from above both of its ends, along its length, reach beyond the rim of what carries it",
         on_it=True,
     ),
+    **{
+        kind: ArrangementRule(
+            words=f"on the {kind.split('_')[1]} shelf of",
+            objects=(1, MANY),
+            of=(1, 1),
+            holds=f"of the boards or compartments of what carries it, it is on {which}",
+            on_it=True,
+        )
+        for kind, which in (
+            ("on_top_tier", "the highest"), ("on_second_tier", "the second from above"),
+            ("on_third_tier", "the third from above"), ("on_middle_tier", "one that is neither highest nor lowest"),
+            ("on_bottom_tier", "the lowest"),
+        )
+    },
 }  # fmt: skip
 
 POSTURES: dict[str, tuple[float, float]] = {

@@ -13,7 +13,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from pat3d.layout.bodies import Placed
-from pat3d.layout.frames import column_of
+from pat3d.layout.frames import column_at
 from pat3d.scene.model import Relation
 from pat3d.view.rays import RayScene
 from pat3d.vision.camera import Array
@@ -100,7 +100,7 @@ def _may_carry(under: Placed, body: Placed, tolerance: float) -> bool:
 
 def _is_in(body: Placed, holder: Placed, tolerance: float) -> bool:
     """Whether `body` is in the cavity of `holder`: its foot not over the rim, its middle or its foot over the floor."""
-    column = column_of(holder)
+    column = column_at(holder, float(body.low[2]) + 2.0 * tolerance)
     if column is None or column.height < SHALLOW * 2.0 * float(column.half_size.min()):
         return False
     if body.low[2] > column.rim + 0.5 * float(body.high[2] - body.low[2]) - 1e-9:

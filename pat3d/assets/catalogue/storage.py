@@ -36,14 +36,19 @@ def _boards(half_x: float, half_y: float, tops: Sequence[float], thick: float, t
     return (*sorted(enclosed, key=lambda region: abs(region.floor[2] - 0.95)), shelf_top(half_x, half_y, top))
 
 
+def _count(style: Style, usual: int) -> int:
+    """How many boards a shelf has: as its adjectives say, or as is `usual`."""
+    return next((count for count in range(2, 7) if f"{count}-tier" in style.adjectives), usual)
+
+
 @entry("bookshelf", family="storage", material="wood", colours=WOODS, plurals=("bookshelves",),
        synonyms=("bookcase", "book shelf", "book case"))  # fmt: skip
 def bookshelf(style: Style) -> Build:
-    """A bookcase with a back and four open compartments."""
+    """A bookcase with a back and open compartments, four where nothing is said."""
     wide, deep, tall = stretch(style)
     x, y, z = style.vary(0.85) * wide, style.vary(0.32) * deep, style.vary(1.7) * tall
     colour, thick = style.colour(), 0.025
-    count = max(2, round(z / 0.42))
+    count = _count(style, max(2, round(z / 0.42)))
     sides = [box(thick, y, z).moved(s * (x - thick) / 2) for s in (-1, 1)]
     back = span((-x / 2, x / 2), (y / 2 - 0.015, y / 2), (0.0, z))
     step = (z - 0.08) / count
@@ -66,7 +71,7 @@ def shelf(style: Style) -> Build:
     wide, deep, tall = stretch(style)
     x, y, z = style.vary(0.95) * wide, style.vary(0.42) * deep, style.vary(1.5) * tall
     colour, thick, post = style.colour(), 0.03, 0.035
-    count = 3 if z < 1.2 else 4
+    count = _count(style, 3 if z < 1.2 else 4)
     tops = [0.15 + k * (z - 0.15) / (count - 1) for k in range(count)]
     boards = [box(x - 0.004, y - 0.004, thick).moved(z=top - thick) for top in tops]
     slots = [

@@ -167,7 +167,7 @@ class _Auditor(Compared):
                 made.append((mention.start, f'not in the scene: "{mention.text}"'))
                 continue
             place = any(claim.of is mention and claim.place not in ("with", "holding") for claim in self.said.claims)
-            if self._listed(mention):
+            if self._listed(mention) or self.tiered(mention):
                 continue
             apart = place or not mention.owned or mention.text in CLOSING
             if apart and not self.of(mention) and not self._is_part(mention):

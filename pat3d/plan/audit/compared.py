@@ -7,8 +7,10 @@ from collections.abc import Collection
 
 from pat3d.assets.colours import find_colour
 from pat3d.plan.audit.text import Claim, Mention, Said, singulars
-from pat3d.plan.audit.words import FALLEN, FARTHEST, HEADLESS, ORDINALS, PARTS, SHARED, Place
+from pat3d.plan.audit.words import FALLEN, FARTHEST, HEADLESS, NUMBERS, ORDINALS, PARTS, SHARED, Place
+from pat3d.plan.holders import TIER_HEIGHTS, TIER_PARTS
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
+from pat3d.scene.arrangements import TIERS
 from pat3d.scene.relations import Relation, carriers_of
 
 _MIRRORED = {"left_of": "right_of", "right_of": "left_of", "in_front_of": "behind", "behind": "in_front_of",
@@ -135,6 +137,19 @@ class Compared:
     def named(self, text: str) -> bool:
         """Whether a note names `text` already."""
         return re.search(rf"\b{re.escape(text)}", self.told) is not None
+
+    def tiered(self, mention: Mention) -> bool:
+        """Whether `mention` is a shelf or a rack of a piece of furniture, on which the plan puts something."""
+        return self.tier_at(mention.end - 1)
+
+    def tier_at(self, at: int) -> bool:
+        """Whether the word at `at` is the "shelf" of "the top shelf", where the plan tells tiers of furniture."""
+        word, before = "".join(self.said.words[at : at + 1]), self.said.words[max(at - 1, 0)]
+        if before not in TIER_HEIGHTS and NUMBERS.get(before, int(before) if before.isdecimal() else 0) < 2:
+            return False
+        counted = any(adjective.endswith("-tier") for obj in self.plan.objects for adjective in obj.adjectives)
+        told = counted or any(one.kind in TIERS for one in self.plan.arrangements)
+        return told and bool(TIER_PARTS & {word, *singulars(word)})
 
     def missing(self, mention: Mention) -> bool:
         """Whether a note says that what `mention` names is not in the scene, or its phrase not understood."""

@@ -127,7 +127,7 @@ def _told_apart(it: Compared) -> Iterator[tuple[int, str]]:
         pair = next((pair for pair in _OPPOSED if pair & one.lead and pair & other.lead
                      and not pair & one.lead & other.lead), None)  # fmt: skip
         alone = one.noun == other.noun and not one.plural and not other.plural and len(it.of(one)) == 1
-        if pair is not None and alone and "are read as one" not in it.quoted:
+        if pair is not None and alone and "are read as one" not in it.quoted and not it.tiered(other):
             said = [next(iter(pair & mention.lead)) for mention in (one, other)]
             yield other.start, f'"{said[0]} {one.text}" and "{said[1]} {other.text}" are read as one'
 

@@ -79,7 +79,7 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
         wished = wished or (word in _SLIDING and SLIDING & {kind for kind, *_ in steps_of(it.plan.task or "")} != set())
         acts = wished or (word == "robot" and words[at + 1 : at + 2] in (["should"], ["will"], ["finds"], ["can"]))
         hued = word in _COLOURS and len({obj.colours for obj in it.plan.objects}) > 2
-        acts = acts or (word in ("surface", "area") and at - 1 in named)
+        acts = acts or (word in ("surface", "area") and at - 1 in named) or it.tier_at(at) or it.tier_at(at + 1)
         gone = acts or hued or (word in FALLEN and words[at + 1 : at + 2] in (["out"], ["off"], ["from"], ["down"]))
         gone = gone or (word in _DRAPED and any(rel.kind == "hangs_from" for rel in it.plan.relations))
         gone = gone or (

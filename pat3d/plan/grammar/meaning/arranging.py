@@ -12,7 +12,7 @@ from pat3d.plan.grammar.meaning.entities import Arranged, Edge, Group, Item
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.shapes import carriers_in_pyramid
-from pat3d.scene.arrangements import ARRANGEMENTS, LINES
+from pat3d.scene.arrangements import ARRANGEMENTS, LINES, TIERS
 from pat3d.scene.relations import Relation, RelationKind
 
 _SHARED: dict[str, RelationKind] = {"far_from": "next_to", "under": "next_to", "circle": "around"}
@@ -141,7 +141,8 @@ def _may_line_up(world: World, group: Group) -> bool:
         return False
     own = {*group.items}
     placed = [{edge.child, edge.parent} for edge in world.laterals]
-    placed += [{*each.items, *each.of} for each in world.arranged] + [{*each.items} for each in world.sided]
+    placed += [{*each.items, *each.of} for each in world.arranged if each.kind not in TIERS]
+    placed += [{*each.items} for each in world.sided]
     told = any(own & each for each in placed)
     lies = group.modifiers.postures or any(item.told.postures for item in own)
     carries = any(edge.parent in own for edge in world.supports.values())

@@ -16,6 +16,7 @@ from pat3d.plan.grammar.meaning.entities import Item, Step
 from pat3d.plan.grammar.meaning.objects import Maker, multiply
 from pat3d.plan.grammar.meaning.placing import Placing
 from pat3d.plan.grammar.meaning.same_colour import by_colour
+from pat3d.plan.grammar.meaning.tiers import is_tier, put_on_tier, tier_of
 from pat3d.plan.grammar.meaning.undone import turn_as_found, unstacks
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import SHUTTING, Clause
@@ -48,6 +49,8 @@ class Doing(Placing):
             self._said.left = list(world.subject)
         self._handled: set[int] = set()
         """Phrases for everything that were put somewhere."""
+        self._on_tiers: set[int] = set()
+        """Chunks that speak of the tier that something is on."""
         self._from: list[Item] = []
         """What everything that is moved is on before."""
 
@@ -390,8 +393,24 @@ class Doing(Placing):
             self._relating.relate(free, link, parents)
         return bool(free)
 
+    def _on_tier(self, children: list[Item], head: int, owners: list[Item]) -> bool:
+        """Whether chunk `head` speaks of a tier of `owners`, on which `children` are put then."""
+        world, phrase = self._world, self._chunks[head].phrase
+        kind = tier_of(world, phrase, owners)
+        inside = is_tier(phrase) and len(owners) == 1 and world.houses(owners[0])
+        if phrase is None or not children or not (kind or inside):
+            return False
+        self._relating.relate(children, Link(kind="in" if inside else "on"), owners)
+        if kind is None:
+            return True
+        put_on_tier(world, kind, children, owners[0], phrase)
+        self._on_tiers.add(head)
+        return True
+
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
+        if self._clause.manner is None and tier_of(self._world, phrase, self._said.ref(head)) is not None:
+            return
         if (
             phrase is not None
             and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED

@@ -96,7 +96,7 @@ def _open_boxes(world: World, nouns: Nouns) -> None:
     holders = [edge.parent.group for edge in world.supports.values() if edge.kind == "in"]
     holders += [item.group for step in world.steps if step.link and step.link.kind == "in" for item in step.goal]
     for group in holders:
-        for closed, opened in lexicon.OPENED.items():
+        for closed, opened in (lexicon.OPENED | lexicon.HOUSES).items():
             noun = nouns.resolve(opened)
             if noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
                 group.noun = noun

@@ -58,7 +58,7 @@ class Holding(Doing):
         # "Stir the pot with it": the pot does not have it before.
         besides = owner_heads if self._clause.manner is None else ()
         children = self._said.refs_of(sorted(things), other=besides) if told else []
-        if not children:
+        if not children or (len(owner_heads) == 1 and self._on_tier(children, owner_heads[0], owners)):
             return
         if link.manner == "flank":
             sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]

@@ -191,7 +191,7 @@ class Interpreter(Holding):
                 bare = chunk.phrase.determined and not chunk.phrase.definite
                 if bare and not chunk.phrase.possessive and self._clause.manner is None:
                     raise self._maker.unknown(chunk.phrase)
-            for word in words_left(chunk):
+            for word in words_left(chunk) if at not in self._on_tiers else ():
                 self._world.note(f'not modelled: "{word}" of "{chunk.text}"')
             if (word := miscounted(chunk, self._said.ref(at))) is not None:
                 self._world.note(f'not understood: "{word}" of "{chunk.text}"')
@@ -350,6 +350,9 @@ class Interpreter(Holding):
                 if free:
                     self._relating.relate(free, Link(kind="on"), parents)
         # "the red cup is behind the other two": behind each of them
+        carried = link.kind in SUPPORT_KINDS and len(parent_heads) == 1
+        if carried and not link.inverse and self._on_tier(children, parent_heads[0], parents):
+            return
         for landmarks in [[parent] for parent in parents] if one_by_one else [parents]:
             self._relating.relate(children, link, landmarks, each=several)
         self._landmarks[at] = self._relating.landmark

@@ -13,6 +13,7 @@ from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.forming import Forming
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES
 from pat3d.plan.grammar.meaning.objects import multiply
+from pat3d.plan.grammar.meaning.tiers import has_tiers
 from pat3d.plan.grammar.meaning.world import UNUSUAL
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import Link
@@ -339,6 +340,8 @@ class Placing(Forming):
     def _own_part(self, owners: list[Item], phrase: Phrase) -> None:
         for group in dict.fromkeys(item.group for item in owners):
             words = phrase.modifiers
+            if has_tiers(self._world, group, phrase):
+                continue
             own = phrase.said not in LEAVES or self._world.is_a(owners[0], LEAFY)
             if own and (words.colours or words.palette or words.material):
                 describe(group, words, part=phrase.said)

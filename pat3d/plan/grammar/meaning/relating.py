@@ -95,9 +95,11 @@ class Relating:
             off = link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",))
             lid = off or world.is_a(children[0], lexicon.ON_RIMS)
             shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
-            if not lid and (shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))):
+            shut = shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))
+            housed = not (lid or off) and world.houses(parents[0]) and (shut or link.manner == "source")
+            if not lid and shut and not housed:
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
-            within = link.manner == "source" and world.is_a(parents[0], _POURING)
+            within = housed or (link.manner == "source" and world.is_a(parents[0], _POURING))
             kind = "on" if lid else "in" if within else world.containment(parents[0])
             self.relate(children, Link(kind=kind), parents)
         elif link.kind in SUPPORT_KINDS:
@@ -210,9 +212,11 @@ class Relating:
             or world.flat(owner)
             or world.likely.on(world.noun(children[0]), world.noun(owner)) < 0.6
         ):
-            kind = world.containment(owner)
+            housed = world.houses(owner) and self._belongs_inside(owner, children[0], weak=weak)
+            kind = "in" if housed else world.containment(owner)
             world.place(children, kind, owners, weak=weak)
-            self._not_inside(owner, children[0], "on", weak=weak)
+            if not housed:
+                self._not_inside(owner, children[0], "on", weak=weak)
         else:
             self.accompany(children, owners)
             self._not_inside(owner, children[0], "next to")
@@ -226,12 +230,19 @@ class Relating:
     def _not_inside(self, owner: Item, child: Item, where: str, *, weak: bool = True) -> None:
         """Say that what a closed thing or a holder is said to have does not stand inside."""
         world = self.world
-        shut = lexicon.SHUT if weak else ()
-        closed = world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and owner.group.said != "stove"
-        closed = closed and not world.on_floor(child) and not world.is_a(child, lexicon.BY_A_SEAT)
-        if closed and world.containment(owner) != "in":
+        if self._belongs_inside(owner, child, weak=weak) and world.containment(owner) != "in":
             said = f'"{child.group.words}" inside "{owner.group.words}"'
             world.note(f"not arranged: {said}; it is placed {where} it")
+
+    def _belongs_inside(self, owner: Item, child: Item, *, weak: bool) -> bool:
+        """Whether what the closed thing or holder `owner` is said to have is inside of it."""
+        world = self.world
+        if world.on_floor(child) or world.is_a(child, lexicon.BY_A_SEAT):
+            return False
+        if world.houses(owner):
+            return not world.is_a(child, lexicon.NOT_IN_VESSEL)
+        shut = lexicon.SHUT if weak else ()
+        return world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and owner.group.said != "stove"
 
     def _settle(self, children: list[Item], parents: list[Item]) -> None:
         """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""
@@ -248,7 +259,7 @@ class Relating:
     def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str) -> None:
         world, kind = self.world, link.kind
         parent = parents[0]
-        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)):
+        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) and not world.houses(parent):
             if world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"

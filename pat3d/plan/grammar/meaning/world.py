@@ -156,6 +156,12 @@ class World:
             or self.likely.level(noun)
         )
 
+    def houses(self, item: Item) -> bool:
+        """Whether things go into it from the front, which it is made open for."""
+        noun = self.noun(item)
+        # Of a stove the oven is spoken of as a thing of its own.
+        return noun in {*lexicon.HOUSES, *lexicon.HOUSES.values()} and (noun != "stove" or "oven" in item.group.said)
+
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
         return "in" if self.is_a(parent, lexicon.HOLLOW, lexicon.RACKS, tuple(lexicon.OPENED)) else "on"
@@ -224,7 +230,7 @@ class World:
             self._put(child, kind, tops[index % len(tops)], weak)
 
     def _put(self, child: Item, kind: RelationKind, parent: Item, weak: bool) -> None:
-        if kind == "in" and self.flat(parent):
+        if kind == "in" and self.flat(parent) and not self.houses(parent):
             kind = "on"
         if self.is_a(parent, lexicon.HOOKED):
             kind = "hangs_from"
@@ -246,9 +252,10 @@ class World:
                     f'"{child.group.words}" would rest on itself: it already carries "{parent.group.words}". '
                     "Say which one is below."
                 )
-        if self.oddly_below(child, parent):
+        shut_in = kind == "in" and self.houses(parent) and self.likely.floor(self.noun(child))
+        if self.oddly_below(child, parent) or (shut_in and not self.is_a(child, lexicon.SEATS)):
             raise PromptError(
-                f'"{child.group.words}" on "{parent.group.words}": furniture rests on no such thing. Say which one is '
+                f'"{child.group.words}" {kind} "{parent.group.words}": furniture rests {kind} no such thing. Say which one is '
                 "below."
             )
         if old is not None and not old.weak:

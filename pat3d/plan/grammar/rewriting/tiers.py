@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.instructions import VERBS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.number_words import number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_STOREYED = ("shelf", "shelving unit", "bookshelf", "bookcase", "cart", "trolley", "cabinet", "wardrobe", "dresser",
-             "fridge", "tv stand", "cake stand", "dish rack", "bar cart")  # fmt: skip
+_STOREYED = (*lexicon.TIERS, "shelving unit", "bookcase", "trolley", "dresser", "tv stand", "cake stand", "dish rack",
+             "bar cart")  # fmt: skip
 """What has levels where nothing says so."""
 _LEVELS = {"level": "levels", "tier": "tiers", "shelf": "shelves", "storey": "storeys", "rack": "racks"}
 _HEIGHTS = frozenset(lexicon.LEVELS) | {"middle", "centre", "center", "central", "first", "second", "third", "fourth",
@@ -29,14 +30,20 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _on_each(tokens, nouns)
     words = [token.text for token in tokens]
     made: list[Token] = []
-    owner: tuple[str, ...] = ()
+    owner = _unnamed(words, nouns)
     owners: set[tuple[str, ...]] = set()
     told = verb = since = False
     at = 0
     while at < len(tokens):
         if whole := _with_levels(words, at, owner if since else (), nouns):
             owner = whole
-            made += [tokens[at], replace(tokens[at + 1], text="shelves")]
+            match = nouns.match(whole)
+            count = lexicon.TIERS.get(match.noun) if match is not None and match.noun not in lexicon.STACKED else None
+            if number_of(words[at]) == count:
+                # "A cart with two tiers": it is made so.
+                made.pop()
+            else:
+                made += [tokens[at], replace(tokens[at + 1], text="shelves")]
             told, at = True, at + 2
             if words[at] in (":", ",") and words[at + 1] in ("the", "its") and words[at + 2] in _HEIGHTS:
                 made = [*_without_on(made), replace(tokens[at], text=".", mark=True)]
@@ -66,6 +73,13 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         made += tokens[at : at + max(found, 1)]
         at += max(found, 1)
     return made
+
+
+def _unnamed(words: Sequence[str], nouns: Nouns) -> tuple[str, ...]:
+    """The shelf of "a mug on the top shelf and a book on the bottom shelf", which nothing else names."""
+    told = {words[n - 1] for n in range(2, len(words)) if words[n] == "shelf" and words[n - 2] == "the"}
+    owned = any((match := nouns.match([word])) is not None and match.noun in _STOREYED for word in words if word != "shelf")
+    return ("shelf",) if len(told & _HEIGHTS) > 1 and not owned and words[0] not in VERBS else ()
 
 
 def _on_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -120,8 +134,8 @@ def _with_levels(words: Sequence[str], at: int, subject: tuple[str, ...], nouns:
 def _level(words: Sequence[str], at: int, *, told: bool) -> tuple[int, str]:
     """The size of "the upper tier" at token `at`, and which it is; 0 where no level is spoken of alone."""
     if (
-        words[at - 1] in (",", ":", ";", "and")
-        and words[at] in lexicon.LEVELS
+        words[at - 1] in (",", ":", ";", "and", "on")
+        and (words[at] in lexicon.LEVELS or (told and words[at] == "middle"))
         and {*words[at + 1 : at + 2]} & {*_LEVELS}
     ):
         return 2, words[at]

@@ -226,6 +226,16 @@ WIDER = {"bowl": "fruit bowl"}
 OPENED = {"box": "storage box", "toolbox": "open toolbox", "treasure chest": "open treasure chest",
           "cookie jar": "open cookie jar"}  # fmt: skip
 """What a closed thing becomes when the prompt puts something in it."""
+HOUSES = {"microwave": "open microwave", "toaster oven": "open toaster oven", "stove": "open oven",
+          "fridge": "open fridge", "dishwasher": "open dishwasher", "cabinet": "open cabinet",
+          "wardrobe": "open wardrobe"}  # fmt: skip
+"""The same of what opens in front: other things may stand on it."""
+TIERS = {"bookshelf": 4, "shelf": 4, "cart": 2, "coffee table": 2, "side table": 2, "workbench": 2, "tv stand": 2,
+         "stove": 2, "open oven": 2, "fridge": 3, "open fridge": 3, "dishwasher": 2, "open dishwasher": 2,
+         "cabinet": 2, "open cabinet": 2, "wardrobe": 4, "open wardrobe": 4}  # fmt: skip
+"""What has several boards or compartments to put things on, and how many."""
+STACKED = ("bookshelf", "shelf")
+"""What has as many of them as is said."""
 ROUND = ("ball", "apple", "orange", "lemon", "lime", "peach", "plum", "cherry", "egg", "tomato", "watermelon", "kiwi",
     "crystal ball", "tennis ball", "basketball", "football", "soccer ball", "marble", "potato", "onion", "pear",
     "avocado", "grapefruit", "melon", "coconut", "pumpkin", "baseball", "globe", "sphere", "ball of yarn",

@@ -1,0 +1,66 @@
+"""Which of the boards or compartments of a piece of furniture is spoken of: "the top shelf of the bookcase"."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.meaning.entities import Group, Item
+from pat3d.plan.grammar.meaning.world import World
+from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.lexing import singulars
+from pat3d.plan.holders import TIER_PARTS
+from pat3d.scene.arrangements import TIERS, ArrangementKind
+
+_MIDDLE = frozenset({"middle", "center", "centre", "central"})
+_COUNTED: dict[str, ArrangementKind] = {"second": "on_second_tier", "third": "on_third_tier"}
+_FEWEST, _MOST = 2, 6
+"""Shelves that can be asked for."""
+
+
+def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> ArrangementKind | None:
+    """The tier of the one of `owners` that `phrase` speaks of; None where it speaks of none, or the thing has no such."""
+    if phrase is None or len(owners) != 1 or not is_tier(phrase):
+        return None
+    count = _count(world, owners[0].group)
+    words = phrase.words.lower().split()
+    heights = [lexicon.LEVELS[word] for word in words if word in lexicon.LEVELS]
+    kind: ArrangementKind | None = next((_COUNTED[word] for word in words if word in _COUNTED), None)
+    if heights:
+        kind = "on_top_tier" if heights[0] else "on_bottom_tier"
+    elif _MIDDLE & {*words}:
+        kind = "on_middle_tier"
+    if kind is None:
+        return None
+    boards = range(count)
+    first, last = TIERS[kind]
+    return kind if (boards[1:-1] if first is None else boards[first:last]) else None
+
+
+def put_on_tier(world: World, kind: ArrangementKind, children: Sequence[Item], owner: Item, phrase: Phrase) -> None:
+    """Record that `children`, which `owner` carries, are on one of its tiers."""
+    if any(word in _COUNTED for word in phrase.words.lower().split()):
+        world.note(f'"{phrase.words}": counted from the top.')
+    world.arrange(kind, children, [owner])
+    owner.place = ""
+
+
+def is_tier(phrase: Phrase | None) -> bool:
+    """Whether `phrase` speaks of a board or a compartment of furniture."""
+    return phrase is not None and (phrase.part or phrase.head) in TIER_PARTS
+
+
+def _count(world: World, group: Group) -> int:
+    """How many tiers `group` has each: as is said, or as the catalogue makes it."""
+    asked = (int(word[0]) for word in group.modifiers.adjectives if word.endswith("-tier") and word[0].isdigit())
+    return next(asked, next((n for noun, n in lexicon.TIERS.items() if world.is_a(group.items[0], (noun,))), 0))
+
+
+def has_tiers(world: World, group: Group, part: Phrase) -> bool:
+    """Whether `part` says how many shelves a shelf has, which it is made with then."""
+    shelves = TIER_PARTS & {part.head, *singulars(part.head)} and world.is_a(group.items[0], lexicon.STACKED)
+    if not shelves or part.count is None or not _FEWEST <= part.count <= _MOST:
+        return False
+    group.modifiers = replace(group.modifiers, adjectives=(*group.modifiers.adjectives, f"{part.count}-tier"))
+    return True
