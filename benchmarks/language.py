@@ -24,7 +24,7 @@ from pat3d.assets.colours import find_colour
 from pat3d.errors import PromptError
 from pat3d.plan.drawers import CABINETS, DRAWER, DRAWER_CABINET
 from pat3d.plan.grammar.planner import GrammarPlanner
-from pat3d.plan.grammar.words.lexicon import GENERICS
+from pat3d.plan.grammar.words.lexicon import GENERICS, HOUSES
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.plan.scene_plan import PlannedObject, ScenePlan
 from pat3d.scene.task_spec import steps_of
@@ -38,7 +38,7 @@ _KINDS = {
 }  # fmt: skip
 _NOUNS = Nouns(lookup)
 _ALSO_MADE = (("bowl", "fruit bowl"), ("box", "storage box"), ("drawer", "open drawer"),
-              *((noun, DRAWER_CABINET) for noun in CABINETS))  # fmt: skip
+              *((noun, DRAWER_CABINET) for noun in CABINETS), *HOUSES.items())  # fmt: skip
 """What else a thing may be made as that is labelled so."""
 
 

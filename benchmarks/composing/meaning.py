@@ -16,6 +16,8 @@ from pat3d.scene.task_spec import steps_of
 GROUND = "the ground"
 _TURNED = {"right_of": "left_of", "behind": "in_front_of"}
 _SUPPORTS = frozenset({"on", "in", "hangs_from"})
+_CUPBOARDS = ("cabinet", "wardrobe", "sideboard")
+"""What things are on, or in."""
 _PAIRINGS = 5000
 """Pairings tried before things are taken to be told apart by their qualities alone."""
 
@@ -191,6 +193,9 @@ def _facts(meaning: Meaning, plan: ScenePlan, pairing: Mapping[str, Thing]) -> l
 def _carried(meaning: Meaning, thing: Thing, told: set[Fact]) -> Difference:
     """How what carries `thing` differs from what is meant; empty where it does not."""
     kinds, parent = meaning.support(thing)
+    if isinstance(parent, Thing) and parent.noun.word in _CUPBOARDS:
+        # "A cabinet holds a plate"
+        kinds |= {"in"}
     found = [fact for fact in told if fact[1] is thing and fact[0] in _SUPPORTS]
     if len(found) == 1 and found[0][0] in kinds and found[0][2] is parent:
         return Difference("", ())

@@ -142,8 +142,8 @@ def test_what_is_over_something_upside_down_does_not_stand_on_it():
 @pytest.mark.parametrize(
     ("sentence", "named"),
     [
-        ("A kettle is in the cabinet.", "inside"),
-        ("Retrieve the knife from the wardrobe.", "inside"),
+        ("A kettle is in the suitcase.", "inside"),
+        ("Retrieve the knife from the suitcase.", "inside"),
         ("A screwdriver is in a hammer.", "inside"),
         ("Move the water to the tray.", '"the water" is made as'),
         ("A fish and soy sauce are in a pan.", '"soy sauce" is made as'),

@@ -134,8 +134,8 @@ def test_a_corner_that_is_near_is_one_of_the_table(near: str):
 
 def test_a_part_without_articles_is_no_object_of_its_own():
     plan = PLANNER.plan("pick orange can from middle shelf of fridge")
-    assert [obj.noun for obj in plan.objects] == ["can", "fridge"]
-    assert [str(relation) for relation in plan.relations] == ["orange can on fridge"]
+    assert [obj.noun for obj in plan.objects] == ["can", "open fridge"]
+    assert [str(relation) for relation in plan.relations] == ["orange can in fridge"]
 
 
 def test_a_second_command_with_a_verb_of_no_task_is_named():

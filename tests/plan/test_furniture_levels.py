@@ -1,4 +1,4 @@
-"""What is on one of the levels of a piece of furniture is on the furniture, and a note names the level."""
+"""What is on one of the levels of a piece of furniture is on that tier of it, or a note names the level."""
 
 import pytest
 
@@ -43,7 +43,11 @@ def test_a_level_is_its_furniture(planner: GrammarPlanner, prompt: str, owner: s
     plan = planner.plan(prompt)
     names = {obj.noun: obj.name for obj in plan.objects}
     assert {(names[thing], names[owner]) for thing in things} == carried(plan)
-    assert any("has no parts of its own and is meant" in note for note in plan.notes)
+    told = {name: one.kind for one in plan.arrangements if one.of == (names[owner],) for name in one.objects}
+    missing = {names[thing] for thing in things} - set(told)
+    # "The last tier", "the shelf below" are not told by their height.
+    assert not missing or any("has no parts of its own" in note or '"lower"' in note for note in plan.notes)
+    assert set(told.values()) <= {"on_top_tier", "on_middle_tier", "on_bottom_tier"} and told
 
 
 @pytest.mark.parametrize(

@@ -72,6 +72,9 @@ def test_a_list_behind_a_landmark_is_not_inside():
 
 
 @pytest.mark.parametrize("level", ["top", "middle"])
-def test_the_level_of_a_shelf_that_is_named_already_is_noted(level: str):
+def test_the_level_of_a_shelf_that_is_named_already_is_a_tier_of_it(level: str):
     plan = PLANNER.plan(f"A shelf with a jug on the {level} shelf.")
-    assert f'not modelled: "{level}" of "the {level} shelf"' in plan.notes
+    assert [(one.kind, one.objects, one.of) for one in plan.arrangements] == [
+        (f"on_{level}_tier", ("jug",), ("shelf",))
+    ]
+    assert plan.notes == ()

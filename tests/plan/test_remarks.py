@@ -20,7 +20,7 @@ PLANNER = GrammarPlanner()
         ("A phone charges on top of a book.", "phone, book", "phone on book", "charges"),
         ("Two slices of pizza on a plate.", "pizza 1, pizza 2, plate", "pizza 1 on plate, pizza 2 on plate", "slices"),
         ("Lift the bucket to an upright position.", "bucket", "", "to an upright position"),
-        ("Take the cake out of the oven.", "cake, oven", "cake on oven", "inside"),
+        ("Take the cake out of the toaster.", "cake, toaster", "cake on toaster", "inside"),
         ("A laptop open on a desk.", "laptop, desk", "laptop on desk", "open"),
         ("Three candles, though of different heights, stand on a tray.", "candle 1, candle 2, candle 3, tray",
          "candle 1 on tray, candle 2 on tray, candle 3 on tray", "though of different heights"),

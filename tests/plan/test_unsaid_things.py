@@ -217,5 +217,5 @@ def test_what_is_left_out_of_a_stack_or_of_the_middle_of_a_row_is_noted(prompt, 
 
 
 def test_a_note_names_everything_that_is_not_arranged():
-    notes = PLANNER.plan("The jar and the cup are inside the microwave.").notes
+    notes = PLANNER.plan("The jar and the cup are inside the suitcase.").notes
     assert any('"The jar" and "the cup"' in note for note in notes)

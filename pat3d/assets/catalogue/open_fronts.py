@@ -58,7 +58,9 @@ def _case(style: Style, x: float, y: float, z: float, boards: int, mass: float) 
     body, shelves, rooms = _hollow((-x / 2, x / 2), (front, y / 2), (low, high + 0.001), wall, floors)
     plinth = box(x - 0.04, y - 0.06, foot + 0.002)
     cover = box(x + 0.02, y, top).moved(z=high)
-    doors = [_door(x / 2 - 0.004, (low + 0.005, high - 0.005), (s * (x / 2 - 0.001), front + 0.001), s) for s in (-1, 1)]
+    doors = [
+        _door(x / 2 - 0.004, (low + 0.005, high - 0.005), (s * (x / 2 - 0.001), front + 0.001), s) for s in (-1, 1)
+    ]
     return Build(
         parts=((join(body, plinth, *shelves), style.shade(colour, 0.8)), (join(cover, *doors), colour)),
         regions=(*rooms, shelf_top(x / 2, y / 2, z)),
@@ -67,13 +69,14 @@ def _case(style: Style, x: float, y: float, z: float, boards: int, mass: float) 
 
 
 @entry("open cabinet", family="storage", material="wood", colours=("wood", "brown", "tan"),
-       synonyms=("open cupboard", "open kitchen cabinet", "open sideboard"))  # fmt: skip
+       synonyms=("open cupboard", "open kitchen cabinet", "open sideboard", "opened cabinet", "opened cupboard"))  # fmt: skip
 def open_cabinet(style: Style) -> Build:
     """A low cabinet with two open doors and a board inside."""
     return _case(style, 0.85, 0.42, 0.85, 1, 32.0)
 
 
-@entry("open wardrobe", family="storage", material="wood", colours=("wood", "brown", "tan"), synonyms=("open closet",))
+@entry("open wardrobe", family="storage", material="wood", colours=("wood", "brown", "tan"),
+       synonyms=("open closet", "opened wardrobe", "opened closet"))  # fmt: skip
 def open_wardrobe(style: Style) -> Build:
     """A tall wardrobe with two open doors and three boards inside."""
     return _case(style, 1.0, 0.56, 1.9, 3, 70.0)
@@ -101,14 +104,14 @@ def _counter_case(style: Style, x: float, y: float, z: float, door: float, mass:
 
 
 @entry("open microwave", family="appliances", material="steel", colours=("black", "white", "steel", "red"),
-       accents=("gray",), synonyms=("open microwave oven",))  # fmt: skip
+       accents=("gray",), synonyms=("open microwave oven", "opened microwave"))  # fmt: skip
 def open_microwave(style: Style) -> Build:
     """A microwave oven whose door is open to the left."""
     return _counter_case(style, 0.48, 0.36, 0.28, 0.74, 11.5, down=False)
 
 
 @entry("open toaster oven", family="appliances", material="steel", colours=("steel", "red", "black"),
-       accents=("black",))  # fmt: skip
+       accents=("black",), synonyms=("opened toaster oven",))  # fmt: skip
 def open_toaster_oven(style: Style) -> Build:
     """A small oven whose door is down."""
     return _counter_case(style, 0.42, 0.3, 0.24, 0.76, 5.0, down=True)
@@ -138,20 +141,22 @@ def _kitchen_case(
     )
 
 
-@entry("open oven", family="appliances", material="steel", colours=("steel", "white", "black"))
+@entry("open oven", family="appliances", material="steel", colours=("steel", "white", "black"),
+       synonyms=("opened oven",))  # fmt: skip
 def open_oven(style: Style) -> Build:
     """A cooker whose oven is open, with a rack in the middle of it."""
     return _kitchen_case(style, 0.9, (0.22, 0.74), (0.48,), 48.0, (38, 38, 42))
 
 
-@entry("open dishwasher", family="appliances", material="steel", colours=("steel", "white", "black"))
+@entry("open dishwasher", family="appliances", material="steel", colours=("steel", "white", "black"),
+       synonyms=("opened dishwasher",))  # fmt: skip
 def open_dishwasher(style: Style) -> Build:
     """A dishwasher whose door is down, with a rack over another."""
     return _kitchen_case(style, 0.85, (0.1, 0.82), (0.46,), 42.0)
 
 
 @entry("open fridge", family="appliances", material="steel", colours=("white", "steel", "mint", "red"),
-       accents=("steel",), synonyms=("open refrigerator", "open freezer"))  # fmt: skip
+       accents=("steel",), synonyms=("open refrigerator", "open freezer", "opened fridge", "opened refrigerator"))  # fmt: skip
 def open_fridge(style: Style) -> Build:
     """A fridge with two boards, its door open to the left, over a freezer drawer."""
     x, y, z = style.vary(0.6, 0.03), style.vary(0.64, 0.02), style.vary(1.55, 0.05) * stretch(style)[2]

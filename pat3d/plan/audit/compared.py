@@ -142,6 +142,11 @@ class Compared:
         """Whether `mention` is a shelf or a rack of a piece of furniture, on which the plan puts something."""
         return self.tier_at(mention.end - 1)
 
+    def on_tier(self, rel: Relation) -> bool:
+        """Whether the plan has the child of `rel` on a tier of its parent, as only words for that have it."""
+        told = (one for one in self.plan.arrangements if one.kind in TIERS)
+        return rel.supports and any(rel.child in one.objects and rel.parent in one.of for one in told)
+
     def tier_at(self, at: int) -> bool:
         """Whether the word at `at` is the "shelf" of "the top shelf", where the plan tells tiers of furniture."""
         word, before = "".join(self.said.words[at : at + 1]), self.said.words[max(at - 1, 0)]
@@ -157,6 +162,10 @@ class Compared:
 
     def excused(self, claim: Claim) -> bool:
         """Whether a note speaks of `claim`: in its own words, or of what it is said of and in which relation."""
+        if claim.place in ("holding", "with") and claim.of is not None:
+            shelves = [{*one.objects} for one in self.plan.arrangements if one.kind in TIERS]
+            if any({obj.name for obj in self.which(claim.of)} <= own for own in shelves):
+                return True
         if claim.of is None or self.named(claim.said) or self.missing(claim.of):
             return self.named(claim.said) or claim.of is not None
         words = self.said.words[claim.at : claim.end]

@@ -52,7 +52,7 @@ def unsaid(it: Compared, found: Sequence[str]) -> Iterator[str]:
         told = not alike or _stacked(it.said.words) or _licensed(it, rel.child, rel.kind, rel.parent)
         if rel.kind == "on" and not told:
             yield f'assumed: "{objects[rel.child].phrase}" on "{objects[rel.parent].phrase}"'
-        if rel.parent in objects and not alike:
+        if rel.parent in objects and not alike and not it.on_tier(rel):
             pairs.setdefault((objects[rel.child].phrase, objects[rel.parent].phrase), []).append(rel)
     all_found = " ".join(found)
     broken = [_told_of(it, claim) for claim in it.said.claims

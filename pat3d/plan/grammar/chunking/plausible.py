@@ -69,7 +69,9 @@ class Plausible:
 
     def closet(self, noun: str) -> bool:
         """Whether things go into it through a door or a drawer."""
-        return self.is_a(noun, lexicon.STORAGE, lexicon.CLOSED, tuple(lexicon.HOUSES.values()), ("drawer", "open drawer"))
+        return self.is_a(
+            noun, lexicon.STORAGE, lexicon.CLOSED, tuple(lexicon.HOUSES.values()), ("drawer", "open drawer")
+        )
 
     def opens(self, noun: str) -> bool:
         """Whether it is a thing to put others into: a vessel, a cupboard, a bag; a desk is first of all a table."""

@@ -398,6 +398,7 @@ class Doing(Placing):
         world, phrase = self._world, self._chunks[head].phrase
         kind = tier_of(world, phrase, owners)
         inside = is_tier(phrase) and len(owners) == 1 and world.houses(owners[0])
+        children = [child for child in children if child not in owners]
         if phrase is None or not children or not (kind or inside):
             return False
         self._relating.relate(children, Link(kind="in" if inside else "on"), owners)

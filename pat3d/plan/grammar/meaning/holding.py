@@ -9,6 +9,7 @@ from pat3d.plan.grammar.meaning.distribution import all_like, for_each, hand_out
 from pat3d.plan.grammar.meaning.doing import Doing
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.objects import Maker
+from pat3d.plan.grammar.meaning.tiers import is_tier
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import Clause
 from pat3d.plan.grammar.words import lexicon
@@ -58,8 +59,18 @@ class Holding(Doing):
         # "Stir the pot with it": the pot does not have it before.
         besides = owner_heads if self._clause.manner is None else ()
         children = self._said.refs_of(sorted(things), other=besides) if told else []
-        if not children or (len(owner_heads) == 1 and self._on_tier(children, owner_heads[0], owners)):
+        if not children:
             return
+        if len(owner_heads) == 1:
+            # "The upper tier holds a drill, the lower a bucket": what is behind the other is not on the first.
+            others = (at for at in range(owner_heads[0] + 1, max(things)) if is_tier(self._chunks[at].phrase))
+            end = next(others, len(self._chunks))
+            first = [item for head in things if head < end for item in self._said.ref(head) if item in children]
+            if self._on_tier(first, owner_heads[0], owners):
+                things = [head for head in things if head > end]
+                children = [item for item in children if item not in first]
+                if not children:
+                    return
         if link.manner == "flank":
             sides = [self._sides.get(head, "") for head in things for _ in self._said.ref(head)]
             if "both" in sides:

@@ -23,10 +23,14 @@ def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> Arra
     """The tier of the one of `owners` that `phrase` speaks of; None where it speaks of none, or the thing has no such."""
     if phrase is None or len(owners) != 1 or not is_tier(phrase):
         return None
+    if not phrase.part and len(owners[0].group.items) > 1:
+        # "Two shelves: the top shelf ..." is one of the two.
+        return None
     count = _count(world, owners[0].group)
     words = phrase.words.lower().split()
     heights = [lexicon.LEVELS[word] for word in words if word in lexicon.LEVELS]
-    kind: ArrangementKind | None = next((_COUNTED[word] for word in words if word in _COUNTED), None)
+    # "The second shelf" is one of two where nothing that it is a part of is named.
+    kind = next((_COUNTED[word] for word in words if word in _COUNTED and phrase.part), None)
     if heights:
         kind = "on_top_tier" if heights[0] else "on_bottom_tier"
     elif _MIDDLE & {*words}:
@@ -48,7 +52,10 @@ def put_on_tier(world: World, kind: ArrangementKind, children: Sequence[Item], o
 
 def is_tier(phrase: Phrase | None) -> bool:
     """Whether `phrase` speaks of a board or a compartment of furniture."""
-    return phrase is not None and (phrase.part or phrase.head) in TIER_PARTS
+    if phrase is None or phrase.part:
+        return phrase is not None and phrase.part in TIER_PARTS
+    words = phrase.words.lower().split()
+    return phrase.head in TIER_PARTS and phrase.head in words and words[0] not in ("a", "an")
 
 
 def _count(world: World, group: Group) -> int:

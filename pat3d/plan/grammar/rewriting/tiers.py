@@ -27,7 +27,7 @@ _WITH = frozenset({"with", "has", "having", "of", "featuring", "have"})
 
 def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "the upper tier" as "the upper shelf of the cart", the furniture that was named before it."""
-    tokens = _on_each(tokens, nouns)
+    tokens = _on_each(_possessed(tokens, nouns), nouns)
     words = [token.text for token in tokens]
     made: list[Token] = []
     owner = _unnamed(words, nouns)
@@ -75,11 +75,30 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
+def _possessed(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "the fridge's top shelf" as "the top shelf of the fridge"."""
+    made = list(tokens)
+    for at in (n for n in range(1, len(made) - 2) if made[n].text == "'s"):
+        height, level = made[at + 1].text, made[at + 2].text
+        start = next((n for n in (at - 2, at - 3) if n >= 0 and made[n].text in ("the", "a", "an")), None)
+        if start is None or height not in _HEIGHTS or level not in _LEVELS:
+            continue
+        match = nouns.match([token.text for token in made[start + 1 : at]])
+        if match is not None and match.noun in _STOREYED:
+            the = replace(made[start], text="the")
+            owner = (replace(made[at], text="of"), *made[start:at])
+            made[start : at + 3] = [the, made[at + 1], made[at + 2], *owner]
+    return made
+
+
 def _unnamed(words: Sequence[str], nouns: Nouns) -> tuple[str, ...]:
     """The shelf of "a mug on the top shelf and a book on the bottom shelf", which nothing else names."""
     told = {words[n - 1] for n in range(2, len(words)) if words[n] == "shelf" and words[n - 2] == "the"}
-    owned = any((match := nouns.match([word])) is not None and match.noun in _STOREYED for word in words if word != "shelf")
-    return ("shelf",) if len(told & _HEIGHTS) > 1 and not owned and words[0] not in VERBS else ()
+    owned = any(
+        (match := nouns.match([word])) is not None and match.noun in _STOREYED for word in words if word != "shelf"
+    )
+    owned = owned or "shelves" in words
+    return ("shelf",) if len(told & {*lexicon.LEVELS, "middle"}) > 1 and not owned and words[0] not in VERBS else ()
 
 
 def _on_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
