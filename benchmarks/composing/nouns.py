@@ -28,7 +28,8 @@ MATERIALS = {
 SIZES = {"small": -1, "tiny": -1, "little": -1, "large": 1, "big": 1, "huge": 1}
 _IRREGULAR = {"knife": "knives", "shelf": "shelves", "mouse": "mice", "loaf of bread": "loaves of bread"}
 _SAME = {
-    "bowl": ("fruit bowl",), "box": ("storage box",), "nightstand": ("bedside table",), "sideboard": ("cabinet",), "cabinet": ("open cabinet",), "wardrobe": ("open wardrobe",),
+    "bowl": ("fruit bowl",), "box": ("storage box",), "nightstand": ("bedside table",), "sideboard": ("cabinet",),
+    "cabinet": ("open cabinet",), "wardrobe": ("open wardrobe",),
     "trash can": ("bin",), "loaf of bread": ("bread",), "frying pan": ("pan",), "saucepan": ("pot",),
     "alarm clock": ("clock",), "toolbox": ("open toolbox",), "toy robot": ("robot",), "shoe box": ("storage box",),
     "jug": ("pitcher",), "flowerpot": ("flower pot",), "candy bar": ("chocolate bar",),

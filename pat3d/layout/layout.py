@@ -32,11 +32,12 @@ from pat3d.layout.loosening import loosen
 from pat3d.layout.place_settings import place_settings, turned
 from pat3d.layout.postures import posture_rotation
 from pat3d.layout.seats import SAT_AT, SEATS, around, facing, seated, sides
+from pat3d.layout.shares import Top
 from pat3d.layout.shelved import bookends
 from pat3d.layout.slots import stand_in_slots
 from pat3d.layout.spans import homes, put_across
 from pat3d.layout.surfaces import arrange_flat
-from pat3d.layout.tops import Top, item_of, spread
+from pat3d.layout.tops import item_of, spread
 from pat3d.layout.turning import turned_to_targets
 from pat3d.layout.turns import abreast, free_turn
 from pat3d.scene.arrangements import Arrangement, check_arrangements
@@ -211,17 +212,15 @@ class _Arranger:
         kids = self.children[name]
         drawn = [kid for kid in kids if self.kinds[kid] == "in" and slides(self.bodies[kid].asset, root.body.asset)]
         kids = [kid for kid in kids if kid not in drawn]
-        column = column_of(root)
-        inside = [kid for kid in kids if self.kinds[kid] == "in" and column is not None]
-        housed = inside if column is not None and column.capped else []
+        column, within = column_of(root), [kid for kid in kids if self.kinds[kid] == "in"]
+        inside = within if column is not None else []
         hanging = [kid for kid in kids if self.kinds[kid] == "hangs_from"]
-        for kid in kids:
-            if self.kinds[kid] == "in" and kid not in inside:
-                self.notes.append(f'"{name}" has no cavity; "{kid}" stands on it.')
+        self.notes += [f'"{name}" has no cavity; "{kid}" stands on it.' for kid in within if kid not in inside]
         onto = [kid for kid in kids if kid not in inside and kid not in hanging]
         group = self._with(group, slide_in(root, [self._build(kid, 0.0) for kid in drawn], self.gap))
-        group = self._load(group, housed, yaw, "in")
-        group = self._fill(group, [kid for kid in inside if kid not in housed])
+        # Under a ceiling things go in from the front.
+        capped = column is not None and column.capped
+        group = self._load(group, inside, yaw, "in") if capped else self._fill(group, inside)
         group = self._load(group, onto, yaw)
         group = self._with(group, self._span(name, [group])[1:])
         for kid in hanging:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -21,11 +20,10 @@ from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
 from pat3d.layout.group import Group
 from pat3d.layout.loosening import loosen
-from pat3d.layout.place_settings import Setting
 from pat3d.layout.places import pins
 from pat3d.layout.refusals import largest_formation, no_room
-from pat3d.layout.surfaces import NOTHING, arrange_flat
-from pat3d.layout.tiers import meant, tiers
+from pat3d.layout.shares import Top, homes_of, shares
+from pat3d.layout.surfaces import arrange_flat
 
 _ROOMY = 2.0
 """Surfaces this many times as long and wide as a thing alone on them have it anywhere."""
@@ -39,36 +37,6 @@ _WALLED = frozenset(
     | {"bedside table", "nightstand", "armchair", "filing cabinet", "floor lamp", "mirror"}
 )
 """Nouns that stand with their backs in one line."""
-
-
-@dataclass(frozen=True, kw_only=True, eq=False)
-class Top:
-    """What carries, as the children see it."""
-
-    root: Placed
-    supports: Sequence[Placed]
-    """The root, its contents and children that are fixed."""
-    regions: Sequence[FlatRegion]
-    """Best first."""
-    given: Sequence[Group]
-    """Children at fixed poses."""
-    turnable: set[str]
-    """Children that may be turned by a quarter to fit."""
-    gap: float
-    """[m]"""
-    wishes: Wishes = NOTHING
-    """Of the arrangements among the children."""
-    leaning: frozenset[str] = frozenset()
-    """Children that others keep from falling."""
-    turns: Mapping[str, float] = field(default_factory=dict)
-    """By how much children would like to be turned [rad]; missing for not at all."""
-    settings: Sequence[Setting] = ()
-    """Places laid at this table."""
-
-    @property
-    def name(self) -> str:
-        """Name of the object that carries."""
-        return self.root.body.name
 
 
 def spread(
@@ -87,8 +55,8 @@ def spread(
         )
     placed: list[Group] = []
     notes: list[str] = []
-    homes = _homes(top, groups)
-    waiting = _shares(top, groups, laterals, homes)
+    homes = homes_of(top, groups)
+    waiting = shares(top, groups, laterals, homes)
     overflow: list[Group] = []
     for region, share in zip(top.regions, waiting, strict=True):
         found, overflow = _as_many(top, region, [*overflow, *share], laterals, placed, rng, notes)
@@ -140,62 +108,6 @@ def item_of(group: Group, *, turnable: bool) -> Item:
     )
 
 
-def _homes(top: Top, groups: Sequence[Group]) -> dict[str, int]:
-    """The region of every group that is wanted on one tier, by number.
-
-    Raises:
-        LayoutError: there is no such tier.
-    """
-    floors = [float(region.centre[2] - top.root.position[2]) for region in top.regions]
-    homes: dict[str, int] = {}
-    for group in groups:
-        kind = top.wishes.tiers.get(group.name)
-        if kind is None:
-            continue
-        wanted = [region.floor[2] for region in meant(kind, top.root.body.asset)]
-        found = [at for at, floor in enumerate(floors) if any(abs(floor - one) < _LEVEL for one in wanted)]
-        if not found:
-            count = len(tiers(top.root.body.asset))
-            raise LayoutError(
-                f'"{group.name}" cannot be on the {kind.split("_")[1]} shelf of "{top.name}", which has '
-                f"{count or 'no'} {'shelf' if count == 1 else 'shelves'}. Nothing was written."
-            )
-        homes[group.name] = next((at for at in found if _low_enough(top, at, group)), found[0])
-    return homes
-
-
-def _shares(
-    top: Top, groups: Sequence[Group], laterals: Sequence[Lateral], homes: Mapping[str, int]
-) -> list[list[Group]]:
-    """Groups for every region: shelves share them out, elsewhere the best region takes all it can; `homes` are kept."""
-    shares: list[list[Group]] = [[] for _ in top.regions]
-    if not top.regions[0].enclosed and not homes:
-        shares[0] = list(groups)
-        return shares
-    # Alike or related things stay together.
-    cluster = {group.name: group.root.body.asset.noun for group in groups}
-    for lat in laterals:
-        if lat.child in cluster and lat.parent in cluster:
-            old, new = cluster[lat.child], cluster[lat.parent]
-            cluster = {name: new if label == old else label for name, label in cluster.items()}
-    for one in top.wishes.formations:
-        labels = {cluster[name] for name in one.names if name in cluster}
-        cluster = {name: min(labels) if label in labels else label for name, label in cluster.items()}
-    turn = itertools.cycle(range(len(top.regions) if top.regions[0].enclosed else 1))
-    home = {cluster[name]: at for name, at in homes.items()}
-    # Alike things may be wanted on different tiers.
-    apart = {cluster[name] for name, at in homes.items() if home[cluster[name]] != at}
-    for group in groups:
-        if group.name in homes and cluster[group.name] in apart:
-            shares[homes[group.name]].append(group)
-            continue
-        label = cluster[group.name]
-        if label not in home:
-            home[label] = next((k for k in itertools.islice(turn, len(top.regions)) if _low_enough(top, k, group)), 0)
-        shares[home[label]].append(group)
-    return shares
-
-
 def _carried(top: Top, group: Group, placed: Sequence[Group]) -> bool:
     """Whether a placed group rests on something and its centre of mass is not beside that."""
     others = [member for other in placed if other is not group for member in other.members]
@@ -222,11 +134,6 @@ def _pile(top: Top, groups: Sequence[Group], rng: np.random.Generator) -> list[G
         return pack(top.root, column, groups, obstacles=obstacles, rng=rng, gap=top.gap, steady=True)
     except LayoutError:
         return None
-
-
-def _low_enough(top: Top, region: int, group: Group) -> bool:
-    found = top.regions[region]
-    return not found.enclosed or float(group.size[2]) + 3 * top.gap < found.height
 
 
 def _as_many(

@@ -11,7 +11,7 @@ from pat3d.plan.english import counted, is_plural, joined, plural, some
 from pat3d.plan.holders import FLAT, HOUSING, holds
 from pat3d.plan.naming import Names
 from pat3d.plan.scene_plan import Arrangement, ScenePlan
-from pat3d.scene.arrangements import ARRANGEMENTS, crossing
+from pat3d.scene.arrangements import ARRANGEMENTS, TIERS, crossing
 from pat3d.scene.relations import GROUND, OPPOSITE, RELATION_WORDS, Relation
 from pat3d.scene.task_spec import steps_of
 
@@ -247,7 +247,10 @@ class _Teller(Names):
                 lowest = counted(len(each.objects))
                 made.append(f"{self._all(self._pyramids[each.objects])} are in a pyramid, {lowest} at the bottom")
                 continue
-            words = f"{rule.words} {self._all(each.of)}" if each.of else rule.alone
+            shelf = each.kind in TIERS and any(name.rstrip(" 0123456789").endswith("shelf") for name in each.of)
+            # "The top shelf of the shelf" has a board in it.
+            said = rule.words.replace("shelf", "board") if shelf else rule.words
+            words = f"{said} {self._all(each.of)}" if each.of else rule.alone
             names = [name for name in each.objects if not self._carries(each.kind, name, each.of)]
             if words and names:
                 made.append(f"{self._all(names)} {self._is(names)} {words}")

@@ -29,7 +29,7 @@ TIERS: dict[str, tuple[int | None, int | None]] = {
     "on_top_tier": (-1, None), "on_second_tier": (-2, -1), "on_third_tier": (-3, -2), "on_middle_tier": (None, None),
     "on_bottom_tier": (0, 1),
 }  # fmt: skip
-"""Kinds that tell one of the tiers of a shelf, and the slice of these from below; None for all that are not outermost."""
+"""Kinds that tell tiers of a shelf, and the slice of these from below; None for all but the outermost."""
 MANY = 100
 
 

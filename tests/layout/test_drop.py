@@ -12,7 +12,8 @@ from pat3d.layout.bodies import Body, box_gap, place
 from pat3d.layout.drop import TOLERANCE, fall
 from pat3d.layout.group import Group
 from pat3d.layout.hanging import _under_the_ridge
-from pat3d.layout.tops import Top, _carried
+from pat3d.layout.shares import Top
+from pat3d.layout.tops import _carried
 from tests.layout.things import asset, block, gap_by_manifold, shapes
 from tests.optimize.stacks import stack
 

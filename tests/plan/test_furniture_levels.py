@@ -47,7 +47,8 @@ def test_a_level_is_its_furniture(planner: GrammarPlanner, prompt: str, owner: s
     missing = {names[thing] for thing in things} - set(told)
     # "The last tier", "the shelf below" are not told by their height.
     assert not missing or any("has no parts of its own" in note or '"lower"' in note for note in plan.notes)
-    assert set(told.values()) <= {"on_top_tier", "on_middle_tier", "on_bottom_tier"} and told
+    assert set(told.values()) <= {"on_top_tier", "on_middle_tier", "on_bottom_tier"}
+    assert told
 
 
 @pytest.mark.parametrize(

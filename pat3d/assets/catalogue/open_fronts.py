@@ -69,7 +69,7 @@ def _case(style: Style, x: float, y: float, z: float, boards: int, mass: float) 
 
 
 @entry("open cabinet", family="storage", material="wood", colours=("wood", "brown", "tan"),
-       synonyms=("open cupboard", "open kitchen cabinet", "open sideboard", "opened cabinet", "opened cupboard"))  # fmt: skip
+       synonyms=("open cupboard", "open kitchen cabinet", "opened cabinet", "opened cupboard"))  # fmt: skip
 def open_cabinet(style: Style) -> Build:
     """A low cabinet with two open doors and a board inside."""
     return _case(style, 0.85, 0.42, 0.85, 1, 32.0)
@@ -156,7 +156,7 @@ def open_dishwasher(style: Style) -> Build:
 
 
 @entry("open fridge", family="appliances", material="steel", colours=("white", "steel", "mint", "red"),
-       accents=("steel",), synonyms=("open refrigerator", "open freezer", "opened fridge", "opened refrigerator"))  # fmt: skip
+       accents=("steel",), synonyms=("open refrigerator", "opened fridge", "opened refrigerator"))  # fmt: skip
 def open_fridge(style: Style) -> Build:
     """A fridge with two boards, its door open to the left, over a freezer drawer."""
     x, y, z = style.vary(0.6, 0.03), style.vary(0.64, 0.02), style.vary(1.55, 0.05) * stretch(style)[2]

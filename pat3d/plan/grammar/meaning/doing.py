@@ -209,6 +209,8 @@ class Doing(Placing):
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
             return
         opened = parents and self._world.is_a(parents[0], tuple(lexicon.OPENED), lexicon.SHUT, lexicon.CLOSED)
+        # "Return the pan to the stove": onto it.
+        opened = opened and (self._world.houses(parents[0]) or not self._world.is_a(parents[0], ("stove",)))
         level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
         floor = bool(parents) and self._world.on_floor(parents[0])
         if link == Link(manner="goal", kind="on") and opened and children and self._clause.verb not in _SLIDING:

@@ -93,10 +93,11 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
 
 def _open_boxes(world: World, nouns: Nouns) -> None:
     """Make what holds something, or is to hold it, an open thing: a carton with balls in it is an open box."""
-    holders = [edge.parent.group for edge in world.supports.values() if edge.kind == "in"]
-    holders += [item.group for step in world.steps if step.link and step.link.kind == "in" for item in step.goal]
-    for group in holders:
-        for closed, opened in (lexicon.OPENED | lexicon.HOUSES).items():
+    holders = [edge.parent for edge in world.supports.values() if edge.kind == "in"]
+    holders += [item for step in world.steps if step.link and step.link.kind == "in" for item in step.goal]
+    for holder in holders:
+        group = holder.group
+        for closed, opened in (lexicon.OPENED | (lexicon.HOUSES if world.houses(holder) else {})).items():
             noun = nouns.resolve(opened)
             if noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
                 group.noun = noun

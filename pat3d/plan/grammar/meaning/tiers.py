@@ -20,7 +20,7 @@ _FEWEST, _MOST = 2, 6
 
 
 def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> ArrangementKind | None:
-    """The tier of the one of `owners` that `phrase` speaks of; None where it speaks of none, or the thing has no such."""
+    """The tier of the one of `owners` that `phrase` speaks of; None without, or where the thing has no such."""
     if phrase is None or len(owners) != 1 or not is_tier(phrase):
         return None
     if not phrase.part and len(owners[0].group.items) > 1:
@@ -30,7 +30,7 @@ def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> Arra
     words = phrase.words.lower().split()
     heights = [lexicon.LEVELS[word] for word in words if word in lexicon.LEVELS]
     # "The second shelf" is one of two where nothing that it is a part of is named.
-    kind = next((_COUNTED[word] for word in words if word in _COUNTED and phrase.part), None)
+    kind: ArrangementKind | None = next((_COUNTED[word] for word in words if word in _COUNTED and phrase.part), None)
     if heights:
         kind = "on_top_tier" if heights[0] else "on_bottom_tier"
     elif _MIDDLE & {*words}:

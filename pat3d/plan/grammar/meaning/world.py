@@ -255,8 +255,8 @@ class World:
         shut_in = kind == "in" and self.houses(parent) and self.likely.floor(self.noun(child))
         if self.oddly_below(child, parent) or (shut_in and not self.is_a(child, lexicon.SEATS)):
             raise PromptError(
-                f'"{child.group.words}" {kind} "{parent.group.words}": furniture rests {kind} no such thing. Say which one is '
-                "below."
+                f'"{child.group.words}" {kind} "{parent.group.words}": furniture rests {kind} no such thing. Say which '
+                "one is below."
             )
         if old is not None and not old.weak:
             below = old.parent
