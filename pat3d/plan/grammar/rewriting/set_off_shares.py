@@ -18,6 +18,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 _LEADING = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
 _OPENING = {"(": ")", ",": ",", "-": "-", "\u2014": "\u2014", "\u2013": "\u2013", "[": "]"}
 _REST = (("the", "other"), ("the", "others"), ("the", "rest"), ("the", "remaining"), ("the", "last"))
+_PARTLY = frozenset({"partly", "partially", "halfway", "half", "just", "right", "still"})
+"""Words before where one of several is."""
 _LONGEST = 24
 """Tokens of what is set off."""
 
@@ -73,7 +75,8 @@ def _told_last(tokens: Sequence[Token]) -> list[Token]:
         stop = next((n for n in range(at, len(words)) if words[n] == "."), len(words))
         some = words[at + 1 : at + 4] == ["one", "of", "the"] and words[at + 4] in words[start:at]
         end = at + 2 if words[at + 1] == "both" else at + 5 if some else stop
-        placed = end < stop and (words[end] == "are" or (words[end] != "of" and link_at(tokens, end) > 0))
+        place = end + (words[end] in _PARTLY)
+        placed = end < stop and (words[end] == "are" or (words[end] != "of" and link_at(tokens, place) > 0))
         apart = (some or "one" in words[start:at]) and not {",", "and", "are"} & {*words[end:stop]}
         if placed and apart:
             verb = replace(tokens[at], text="is" if some else "are", mark=False)
