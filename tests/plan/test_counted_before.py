@@ -231,7 +231,7 @@ def test_of_likes_that_were_named_one_by_one():
         ("Two mugs are on the table, and one mug is on the shelf.", "mug", 3, {("mug 3", "on", "shelf")}),
         ("two pears on a plate, one pear in a bowl", "pear", 3, {("pear 3", "in", "bowl")}),
         ("three lamps on a table and one lamp on a chair", "lamp", 4, {("lamp 4", "on", "chair")}),
-        ("two red jars and one blue jar on a tray", "jar", 3, {("red jar 1", "on", "tray"), ("blue jar", "on", "tray")}),
+        ("two red jars and one blue jar on a tray", "jar", 3, {("blue jar", "on", "tray")}),
     ],
 )  # fmt: skip
 def test_one_behind_several_is_one_of_them_where_it_can_stand_among_them(prompt, noun, number, expected):
