@@ -347,7 +347,8 @@ class Placing(Forming):
                     said = ", ".join(f'"{word}"' for word in idle)
                     self._world.note(f'not modelled: {said} of "{phrase.words}"')
             elif not own or phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
-                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
+                said = " ".join((phrase.words, *words.postures))
+                self._world.note(f'not modelled: "{said}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)
 
