@@ -146,9 +146,11 @@ def _pair_sides(world: World) -> None:
         if each.side == "centre":
             flanks = {_ORDER[one.side] for one in world.sided if one.side != "centre" and one.owner == each.owner}
             # "A desk with a lamp in the middle and a mug on the left": not only right of the mug.
-            alone = bool(each.owner) and world.support(each.items[0]) is each.owner[0] and len(flanks) < 2
+            carrier = world.support(each.items[0])
+            whole = each.owner or ([carrier] if carrier is not None and world.is_a(carrier, lexicon.LEVEL) else [])
+            alone = bool(whole) and carrier is whole[0] and len(flanks) < 2
             if id(each) not in told or alone:
-                world.arrange("in_middle", each.items, each.owner, f'"{each.items[0].group.words}" in the middle')
+                world.arrange("in_middle", each.items, whole, f'"{each.items[0].group.words}" in the middle')
         elif not inside and (beside or id(each) not in told):
             _side_alone(world, each)
 

@@ -132,6 +132,8 @@ class Placing(Forming):
         before = max((head for head in self._landmarks if head < at), default=None)
         last = self._relating.landmark if before is None else self._landmarks[before]
         landmark, surface = last if last[0] else ([], False) if begun else world.landmark
+        if side == "centre" and not landmark:
+            landmark = self._relating.edged
         if landmark and side == "other" and not surface:
             # "On one side of the plate is a fork, on the other a knife."
             side = "right"

@@ -44,6 +44,8 @@ class Relating:
         self.world = world
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What the sentence last said "to the left of" of, and whether it was "on the left side of"."""
+        self.edged: list[Item] = []
+        """At whose end something was last said to be: "a jug at the end of the bench, a jar in the middle"."""
         self.cost = 0.0
         """Of what can only be arranged in part."""
 
@@ -88,6 +90,7 @@ class Relating:
             at, place = link.says.split("_")
             where = f"{at} the {place} of"
             self.relate(children, Link(kind="on" if level else "next_to"), parents)
+            self.edged = parents if level else []
             world.arrange(
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
@@ -106,9 +109,8 @@ class Relating:
             if link.kind not in ("next_to", "around"):
                 self.landmark = (parents, False)
             if link.says == "leaning_against":
-                world.arrange(
-                    "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
-                )
+                note = f"{said.format('leaning against')}; it is placed next to it"
+                world.arrange("leaning_against", children, parents, note)
             together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
             if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
