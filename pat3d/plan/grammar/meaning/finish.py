@@ -234,7 +234,10 @@ def _share_supports(world: World) -> None:
                 ):
                     continue
                 if world.is_a(surface, lexicon.LEVEL) or not world.is_a(lowest, lexicon.BY_A_SEAT):
-                    world.place([lowest], "on", [surface])
+                    # "A mug on a desk next to a lamp and books": all the books.
+                    told = {item for each in edges for item in (each.child, each.parent)} | world.supports.keys()
+                    free = [item for item in lowest.group.items if item not in {*told, *world.grounded}]
+                    world.place([lowest, *free], "on", [surface])
         if len(world.supports) == known:
             break
 

@@ -141,7 +141,8 @@ class Relating:
         if len(own) * len(places) > _PAIRS or (link.kind == "next_to" and len(places) > _NEIGHBOURS):
             where = RELATION_WORDS[link.kind or "next_to"]
             self.world.note(f"not arranged: {said.format(where)}, all of them; each is {where} one of them")
-            return [parents]
+            firsts = list({item.group: [item] for item in reversed(places)}.values())[::-1]
+            return firsts if 1 < len(firsts) <= _NEIGHBOURS and len(own) == 1 else [parents]
         return [[place] for place in places]
 
     def _centre(self, children: list[Item], parents: list[Item]) -> list[Item]:
