@@ -85,7 +85,20 @@ class Tails(Remarks):
             if fault < 0 or start <= fault < end or end == fault
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        return [span for span in made if self._says_nothing(*span) or self._is_purpose(*span)][:_TRIED]
+        idle = (self._is_content, self._says_nothing, self._is_purpose)
+        return [span for span in made if any(told(*span) for told in idle)][:_TRIED]
+
+    def _is_content(self, start: int, end: int) -> bool:
+        """Whether "of lye" or "of BaCl2 and KOH" behind a vessel only tells what no table has, and counts nothing.
+
+        So does "with natural ingredients".
+        """
+        if self._words[start] == "with":
+            return self._words[end - 1] == "ingredients" and end - start < 4
+        held = [word for word in self._words[start + 1 : end] if word not in ("and", ",")]
+        vessel = self._words[start] == "of" and self._behind_noun(start) and 0 < len(held) < 4
+        known = any(at in self._named for at in range(start, end)) or bool({*held} & (lexicon.LEADING | FINITE))
+        return vessel and not known and not any(map(singulars, held))
 
     def _is_purpose(self, start: int, end: int) -> bool:
         """Whether "to sweeten the tea" or "for slicing bread" ends a sentence that names something before it."""
@@ -230,6 +243,11 @@ class Tails(Remarks):
             # "After that, ..."
             return [n + 1 for n in marks[:-1] if self._words[n] in (",", ":")]
         behind = self._behind_noun(at)
+        if word == "of" or (word == "with" and "ingredients" in self._words[at:]):
+            ends = {"and", *FINITE}
+            return [
+                n for n in range(at + 2, len(self._words)) if n in marks or self._words[n] in ends or self._placing(n)
+            ]
         finite = [n for n in range(at + 2, len(self._words)) if self._words[n] in FINITE and n < marks[-1]]
         if word == ",":
             return [] if follower in FINITE or self._placing(at + 1) else marks
