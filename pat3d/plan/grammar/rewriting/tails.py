@@ -85,8 +85,12 @@ class Tails(Remarks):
             if fault < 0 or start <= fault < end or end == fault
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        idle = (self._is_content, self._says_nothing, self._is_purpose)
-        return [span for span in made if any(told(*span) for told in idle)][:_TRIED]
+        return [
+            span
+            for span in made
+            if self._is_content(*span)
+            or (self._words[span[0]] != "of" and (self._says_nothing(*span) or self._is_purpose(*span)))
+        ][:_TRIED]
 
     def _is_content(self, start: int, end: int) -> bool:
         """Whether "of lye" or "of BaCl2 and KOH" behind a vessel only tells what no table has, and counts nothing.
