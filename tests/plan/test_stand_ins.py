@@ -185,8 +185,8 @@ def test_things_that_a_vessel_holds_are_not_left_out():
 
 @pytest.mark.parametrize(
     ("said", "noun"),
-    [("sconce", "lamp"), ("sprig", "rod"), ("divider", "plank"), ("pipette rack", "test tube rack"), ("capsule", "coin"),
-     ("vitamin", "coin"), ("ps5", "game console"), ("chemical", "bottle")],
+    [("sconce", "lamp"), ("sprig", "rod"), ("divider", "plank"), ("pipette rack", "test tube rack"),
+     ("capsule", "coin"), ("vitamin", "coin"), ("ps5", "game console"), ("chemical", "bottle")],
 )  # fmt: skip
 def test_what_is_found_in_bathrooms_drawers_and_laboratories_is_stood_in_for(said, noun):
     plan = PLANNER.plan(f"a {said} on a table")

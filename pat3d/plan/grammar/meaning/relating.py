@@ -44,8 +44,7 @@ class Relating:
         self.world = world
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What the sentence last said "to the left of" of, and whether it was "on the left side of"."""
-        self.edged: list[Item] = []
-        """At whose end something was last said to be: "a jug at the end of the bench, a jar in the middle"."""
+        self.edged: list[Item] = []  # at whose end something was last said to be
         self.cost = 0.0
         """Of what can only be arranged in part."""
 
@@ -374,18 +373,16 @@ class Relating:
         world, parent = self.world, parents[0]
         if side == "centre" and len(parents) > 1:
             # "In the middle of the plates"
-            self._between(children, parents)
-            return
+            return self._between(children, parents)
         level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         if said == "on the back of" and world.is_a(parent, lexicon.BACKED):
             # "A bird stands on the back of an elephant": an animal's back is its top.
-            self.relate(children, Link(kind="on"), parents)
-            return
+            return self.relate(children, Link(kind="on"), parents)
         on_it = level and not world.likely.stands_by(world.noun(children[0]), world.noun(parent))
         if on_it and side in ("left", "right") and said and "side" not in said.split():
-            beside = f'"to the {side} of" has it beside.'
-            world.note(f'"{children[0].group.words}" {said} "{parent.group.words}": on it; {beside}')
+            told = f'"{children[0].group.words}" {said} "{parent.group.words}"'
+            world.note(f'{told}: on it; "to the {side} of" has it beside.')
         if side == "centre" or on_it:
             kind = world.containment(parent)
             world.place(children, kind, parents)
@@ -395,6 +392,7 @@ class Relating:
             alike = [item for item in parents if item.group is parent.group]
             for landmarks in self._landmarks(children, Link(kind=_HALVES[side]), alike, words, each=each):
                 world.beside(children, _HALVES[side], landmarks)
+        return None
 
 
 def _paired(one: Sequence[Item], other: Sequence[Item]) -> list[tuple[Item, Item]]:

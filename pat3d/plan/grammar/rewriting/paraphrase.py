@@ -32,6 +32,7 @@ from pat3d.plan.grammar.rewriting.open_questions import refuse_inserted, refuse_
 from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
+from pat3d.plan.grammar.rewriting.ranges import ranged
 from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
 from pat3d.plan.grammar.rewriting.shorthand import sides
@@ -79,7 +80,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         PromptError: the prompt says what is not there, or how many by a fraction.
     """
     tokens = sides(one_of_two(in_colours(tokens, nouns), nouns), nouns)
-    tokens = at_levels(alternating(with_own_nouns(tokens, nouns), nouns), nouns)
+    tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)

@@ -85,24 +85,23 @@ class Tails(Remarks):
             if fault < 0 or start <= fault < end or end == fault
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        return [
-            span
-            for span in made
-            if self._is_content(*span)
-            or (self._words[span[0]] != "of" and (self._says_nothing(*span) or self._is_purpose(*span)))
-        ][:_TRIED]
+        return [span for span in made if self._idle(*span)][:_TRIED]
+
+    def _idle(self, start: int, end: int) -> bool:
+        idle = self._words[start] != "of" and (self._says_nothing(start, end) or self._is_purpose(start, end))
+        return idle or self._is_content(start, end)
 
     def _is_content(self, start: int, end: int) -> bool:
-        """Whether "of lye" or "of BaCl2 and KOH" behind a vessel only tells what no table has, and counts nothing.
-
-        So does "with natural ingredients".
-        """
+        """Whether "of lye", "of BaCl2 and KOH" tells what no table has, and "with tasty ingredients" nothing."""
         if self._words[start] == "with":
             return self._words[end - 1] == "ingredients" and end - start < 4
-        held = [word for word in self._words[start + 1 : end] if word not in ("and", ",")]
-        vessel = self._words[start] == "of" and self._behind_noun(start) and 0 < len(held) < 4
-        known = any(at in self._named for at in range(start, end)) or bool({*held} & (lexicon.LEADING | FINITE))
-        return vessel and not known and not any(map(singulars, held))
+        held, joints = self._words[start + 1 : end : 2], {*self._words[start + 2 : end : 2]}
+        told = (
+            lexicon.LEADING | FINITE | lexicon.PRONOUNS | lexicon.VIEWERS | lexicon.GENERICS.keys() | lexicon.SUBSTANCES
+        )
+        known = any(at in self._named for at in range(start, end)) or bool({*held} & told)
+        vessel = self._words[start] == "of" and self._behind_noun(start) and joints <= {"and", ","}
+        return vessel and not known and not any(singulars(word) or is_quality(word) for word in held)
 
     def _is_purpose(self, start: int, end: int) -> bool:
         """Whether "to sweeten the tea" or "for slicing bread" ends a sentence that names something before it."""
