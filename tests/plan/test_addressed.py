@@ -33,6 +33,41 @@ def test_whom_it_is_said_to_is_no_object(said, aside):
     assert plan.notes == ()
 
 
+@pytest.mark.parametrize("name", ["Honey", "Ginger", "Olive", "Muffin", "Darling", "Alexa", "Robot", "Daisy"])
+@pytest.mark.parametrize(
+    ("said", "relation", "task"),
+    [
+        ("your cup is on the plate", "cup on plate", None),
+        ("there is a cup on a plate", "cup on plate", None),
+        ("the cup stands next to the plate", "cup next_to plate", None),
+        ("put the cup on the plate", "", "place:cup:plate"),
+        ("could you put the cup on the plate?", "", "place:cup:plate"),
+    ],
+)
+def test_a_bare_name_before_a_clause_is_spoken_to(name, said, relation, task):
+    plan = PLANNER.plan(f"{name}, {said}")
+    assert [obj.noun for obj in plan.objects] == ["cup", "plate"]
+    assert ", ".join(map(str, plan.relations)) == relation
+    assert plan.task == task
+    assert plan.set_aside == (name,)
+
+
+@pytest.mark.parametrize(
+    ("said", "objects"),
+    [
+        ("Honey, milk and bread are on the table.", {"honey", "milk carton", "bread", "table"}),
+        ("Honey, a loaf of bread and a spoon are on the table.", {"honey", "bread", "spoon", "table"}),
+        ("Desk, the lamp is on the left.", {"desk", "lamp"}),
+        ("Basket, a ball is next to it.", {"basket", "ball"}),
+        ("Peaches, the spoon is in the bowl.", {"peach", "spoon", "fruit bowl"}),
+    ],
+)
+def test_a_name_that_opens_a_list_or_a_place_is_no_one_spoken_to(said, objects):
+    plan = PLANNER.plan(said)
+    assert {obj.noun for obj in plan.objects} == objects
+    assert plan.set_aside == ()
+
+
 @pytest.mark.parametrize(
     "said",
     [

@@ -225,6 +225,9 @@ def test_all_of_several_neighbours_are_on_the_table(sentence):
         ("Two pens in a holder and a lamp on a desk.", "pen holder"),
         ("A toothbrush in a holder on a counter.", "toothbrush holder"),
         ("The candle in the silver holder is red.", "candle holder"),
+        ("Two ladles in a steel holder on a bench.", "utensil holder"),
+        ("A whisk and a fork are in the holder.", "utensil holder"),
+        ("Utensils in a holder next to a kettle.", "utensil holder"),
     ],
 )
 def test_a_holder_is_named_by_what_is_in_it(sentence, noun):

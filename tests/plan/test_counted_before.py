@@ -208,3 +208,41 @@ def test_of_likes_that_were_named_one_by_one():
     plan = read("A stack of four books is on the desk. One book is red.")
     assert [obj.colours for obj in plan.objects if obj.noun == "book"] == [("red",), (), (), ()]
     assert count(read("A cup is on the shelf. One cup is on the table."), "cup") == 2
+
+
+@pytest.mark.parametrize(
+    ("prompt", "noun", "number", "expected"),
+    [
+        ("a pair of slippers beside a basket, one slipper in the basket", "slipper", 2,
+         {("slipper 1", "in", "basket"), ("slipper 2", "next_to", "basket")}),
+        ("a pair of brown boots in front of a crate, with one boot partly inside the crate", "boot", 2,
+         {("brown boot 1", "in", "crate"), ("brown boot 2", "in_front_of", "crate")}),
+        ("three magazines on a desk, one magazine leaning against a vase", "magazine", 3,
+         {("vase", "on", "desk"), ("magazine 3", "on", "desk")}),
+        ("Three candles on a shelf, one candle behind a clock", "candle", 3,
+         {("candle 1", "behind", "clock"), ("clock", "on", "shelf")}),
+        ("two crates on the floor, with one crate on a chair", "crate", 2, {("crate 1", "on", "chair")}),
+        ("A bench with four pencils, one pencil in a mug.", "pencil", 4,
+         {("pencil 1", "in", "mug"), ("mug", "on", "bench"), ("pencil 2", "on", "bench")}),
+        ("three forks next to a jar, with one fork in it", "fork", 3,
+         {("fork 1", "in", "jar"), ("fork 2", "next_to", "jar")}),
+        ("two mugs with one mug holding a fork", "mug", 2, {("fork", "in", "mug 1")}),
+        # What stands on another piece of furniture, or in another dish, is one more.
+        ("Two mugs are on the table, and one mug is on the shelf.", "mug", 3, {("mug 3", "on", "shelf")}),
+        ("two pears on a plate, one pear in a bowl", "pear", 3, {("pear 3", "in", "bowl")}),
+        ("three lamps on a table and one lamp on a chair", "lamp", 4, {("lamp 4", "on", "chair")}),
+        ("two red jars and one blue jar on a tray", "jar", 3, {("blue jar", "on", "tray")}),
+    ],
+)  # fmt: skip
+def test_one_behind_several_is_one_of_them_where_it_can_stand_among_them(prompt, noun, number, expected):
+    plan = read(prompt)
+    assert count(plan, noun) == number
+    assert expected <= relations(plan)
+
+
+@pytest.mark.parametrize("opens", [", one can", ", and one can", ", with one can", " with one can"])
+def test_one_that_is_upside_down_is_one_of_those_before(opens):
+    plan = read(f"Three cans on a bench{opens} upside down")
+    assert count(plan, "can") == 3
+    assert relations(plan) == {(f"can {n}", "on", "bench") for n in (1, 2, 3)}
+    assert [each.object for each in plan.postures] == ["can 1"]

@@ -235,3 +235,23 @@ def test_what_is_named_without_a_number_is_had_by_each(
     plan = planner.plan(prompt)
     assert {owner: carries(plan)[owner] for owner in owners} == {owner: Counter(had) for owner in owners}
     assert not flagged(plan)
+
+
+@pytest.mark.parametrize(
+    ("prompt", "whole", "under", "kind", "number"),
+    [
+        ("A tray with a teapot and three cups, each on its own saucer.", "tray", "saucer", "on", 3),
+        ("a tray: kettle, milk jug and two cups, each on its own saucer", "tray", "saucer", "on", 2),
+        ("A desk with a lamp and four mugs, each on a coaster", "desk", "coaster", "on", 4),
+        ("a shelf with a clock and three plants, each in its own pot", "shelf", "flower pot", "in", 3),
+        ("a bench: a radio and two cakes, each on its own plate", "bench", "plate", "on", 2),
+    ],
+)
+def test_what_each_has_is_where_the_list_is(prompt, whole, under, kind, number):
+    plan = GrammarPlanner().plan(prompt)
+    own = [obj.name for obj in plan.objects if obj.noun == under]
+    edges = {(rel.child, rel.kind, rel.parent) for rel in plan.relations}
+    assert len(own) == number
+    assert {(name, "on", whole) for name in own} <= edges
+    assert sorted(parent for _, how, parent in edges if how == kind and parent in own) == own
+    assert not any("where is not said" in note for note in plan.notes)

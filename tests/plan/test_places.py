@@ -153,3 +153,32 @@ def test_a_pyramid_is_built_with_what_it_is_of():
     plan = PLANNER.plan("Build a pyramid with three boxes.")
     assert {obj.noun for obj in plan.objects} == {"box"}
     assert plan.notes == ()
+
+
+@pytest.mark.parametrize(
+    ("prompt", "middle", "of", "relations"),
+    [
+        ("The jar is on the left side of the bench, while the vase is positioned in the center", "vase", "bench",
+         {"jar on bench", "vase on bench", "jar left_of vase"}),
+        ("A can is on the right side of the desk, and a lamp is in the middle.", "lamp", "desk",
+         {"can on desk", "lamp on desk", "can right_of lamp"}),
+        ("On the left side of the tray is a cup, and a candle is in the centre.", "candle", "tray",
+         {"cup on tray", "candle on tray", "cup left_of candle"}),
+        ("A clock stands at the right end of the shelf, the radio in the center.", "radio", "shelf",
+         {"clock on shelf", "radio on shelf"}),
+        ("A jug sits on the front edge of the table, while a plant sits in the middle.", "plant", "table",
+         {"jug on table", "plant on table"}),
+        ("A spoon is in the corner of the tray and an egg in the middle.", "egg", "tray",
+         {"spoon on tray", "egg on tray"}),
+    ],
+)  # fmt: skip
+def test_a_middle_without_its_whole_is_of_what_the_side_was_of(prompt, middle, of, relations):
+    plan = PLANNER.plan(prompt)
+    assert {str(rel) for rel in plan.relations} == relations
+    told = [each for each in plan.arrangements if each.kind == "in_middle"]
+    assert [(each.objects, each.of, each.arranged) for each in told] == [((middle,), (of,), True)]
+
+
+def test_of_three_beside_each_other_none_is_in_the_middle_of_the_whole():
+    plan = PLANNER.plan("A jar is on the left of the bench, a clock is in the middle and a lamp on the right.")
+    assert plan.arrangements == ()

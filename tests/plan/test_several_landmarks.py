@@ -133,3 +133,34 @@ def test_each_side_has_as_many(prompt: str, left: int, right: int):
 
 def test_two_on_each_side_are_noted_to_be_four():
     assert '"Two stools": as many on each side, 4 in all.' in read("Two stools on each side of a bench").notes
+
+
+@pytest.mark.parametrize(
+    ("prompt", "one", "beside"),
+    [
+        ("a spoon on a tray next to bread, cheese and a pear", "tray", ["bread", "cheese", "pear"]),
+        ("A can is on a plate next to a jug, a pot and a vase.", "plate", ["jug", "pot", "vase"]),
+        ("A jar next to a book, a fork and a clock", "jar", ["book", "fork", "clock"]),
+        ("a rabbit beside a basket, a ball, and a bucket", "rabbit", ["basket", "ball", "bucket"]),
+        ("Two eggs on a plate beside a jug, a cup and a spoon", "plate", ["jug", "cup", "spoon"]),
+    ],
+)
+def test_a_list_that_ends_the_sentence_is_of_neighbours(prompt, one, beside):
+    plan = GrammarPlanner().plan(prompt)
+    edges = [(rel.child, rel.parent) for rel in plan.relations if rel.kind == "next_to"]
+    assert edges == [(one, other) for other in beside]
+    assert not any("is not read as said" in note or "where is not said" in note for note in plan.notes)
+
+
+def test_a_list_that_goes_on_behind_a_neighbour_is_of_more():
+    plan = GrammarPlanner().plan("a jar, a cup next to a jug, a pot and a pan")
+    assert [(rel.child, rel.parent) for rel in plan.relations] == [("cup", "jug")]
+    assert sum("is not read as said of it" in note or "where is not said" in note for note in plan.notes) == 3
+
+
+def test_of_more_neighbours_than_find_room_one_of_each_is_beside():
+    plan = GrammarPlanner().plan("A cup on a desk next to a radio, books and pens")
+    assert {str(rel) for rel in plan.relations if rel.kind == "next_to"} == {
+        "cup next_to radio", "cup next_to book 1", "cup next_to pen 1"}  # fmt: skip
+    assert sum(rel.kind == "on" and rel.parent == "desk" for rel in plan.relations) == 8
+    assert any("all of them; each is next to one of them" in note for note in plan.notes)

@@ -146,3 +146,62 @@ def test_a_fruit_in_a_list_is_no_colour_of_what_follows(fruit: str):
 def test_colours_in_a_list_stay_colours():
     colours = [obj.colours for obj in PLANNER.plan("desk: red, orange, yellow cups").objects if obj.noun == "cup"]
     assert colours == [("red",), ("orange",), ("yellow",)]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "made", "relations"),
+    [
+        ("blocks: three red, two blue, one green", {"red": 3, "blue": 2, "green": 1}, set()),
+        ("balls: red 3x, blue 2x, one green, scattered on a mat", {"red": 3, "blue": 2, "green": 1}, {"on mat"}),
+        ("pencils: 2x yellow, 3x blue on a tray", {"yellow": 2, "blue": 3}, {"on tray"}),
+        ("jars: two white and one black, on a shelf", {"white": 2, "black": 1}, {"on shelf"}),
+        ("wooden blocks: 4 yellow, 1 red", {"yellow": 4, "red": 1}, set()),
+        ("pears: three green and two red in a bowl", {"green": 3, "red": 2}, {"in bowl"}),
+    ],
+)
+def test_numbers_of_colours_behind_a_heading_are_of_it(prompt, made, relations):
+    plan = GrammarPlanner().plan(prompt)
+    coloured = [obj for obj in plan.objects if obj.colours]
+    assert {colour: sum(obj.colours[0] == colour for obj in coloured) for colour in made} == made
+    assert len(coloured) == sum(made.values())
+    assert {f"{rel.kind} {rel.parent}" for rel in plan.relations} == relations
+    assert sum(len(relations) for _ in coloured) == len(plan.relations)
+
+
+@pytest.mark.parametrize("said", ["(landscape)", "(portrait format)", "(square)", "(vertical photo)"])
+def test_how_a_photo_is_turned_is_no_object(said):
+    plan = GrammarPlanner().plan(f"A bench {said} with a vase.")
+    assert [obj.noun for obj in plan.objects] == ["bench", "vase"]
+
+
+@pytest.mark.parametrize(
+    ("prompt", "objects", "note"),
+    [
+        ("Neither spoon nor fork, just a knife across a plate", ["knife", "plate"], "nor fork"),
+        ("A bench with neither lamps nor books, only a vase.", ["bench", "vase"], "nor books"),
+        ("There is neither a jar nor a can on the shelf, only a vase.", ["shelf", "vase"], "nor a can"),
+        ("Neither a pen nor a pencil, only a ruler next to a cup", ["ruler", "cup"], "nor a pencil"),
+        ("No lamp and neither books nor pens, only a clock on the shelf.", ["clock", "shelf"], "nor pens"),
+    ],
+)
+def test_of_neither_and_nor_only_what_is_there_instead_is_made(prompt, objects, note):
+    plan = GrammarPlanner().plan(prompt)
+    assert sorted(obj.noun for obj in plan.objects) == sorted(objects)
+    assert f'not modelled: "{note}"' in plan.notes
+
+
+@pytest.mark.parametrize(
+    ("number", "pairs", "noun"), [("eight", "four", "cup"), ("six", "three", "bowl"), ("ten", "five", "plate")]
+)
+def test_things_stacked_in_pairs_are_stacks_of_two(number, pairs, noun):
+    plan = GrammarPlanner().plan(f"{number} {noun}s stacked in {pairs} pairs on a table")
+    on = [rel.parent for rel in plan.relations]
+    assert sum(obj.noun == noun for obj in plan.objects) == len(on)
+    assert 2 * on.count("table") == len(on)
+
+
+@pytest.mark.parametrize("said", ["natural", "organic", "simple"])
+def test_with_ingredients_nothing_is_made(said):
+    plan = GrammarPlanner().plan(f"Two bars of soap with {said} ingredients on a shelf")
+    assert [obj.noun for obj in plan.objects] == ["soap", "soap", "shelf"]
+    assert f'not modelled: "with {said} ingredients"' in plan.notes

@@ -34,6 +34,8 @@ _JOINED = (
 )  # fmt: skip
 _AWAY = frozenset({"apart", "away", "from", "off"})
 """Words after a length that make it a distance."""
+_ON_ITS = (token_text("on its"), token_text("on their"))
+"""What begins the words for where a part is: "a label on its side"."""
 _HOW_FAR = frozenset({"by", "forward", "forwards", "back", "backward", "backwards", "upward", "upwards", "up", "down"})
 _MOVING = frozenset({"push", "pull", "slide", "drag", "shift", "lift", "raise", "lower", "nudge", "open", "close",
     "shut"})  # fmt: skip
@@ -302,8 +304,10 @@ class Cutter(Qualities):
             self._made.chunks.append(Chunk(kind="rel", text="beside", words=("beside",), link=LINKS["beside",]))
             return self._pronoun("it")
         self._at += 2 if self._tokens[after].text == "apart" else 1
-        if last is not None and last.phrase is not None and last.phrase.head in ("it", "them") and not is_measure(word):
-            # "Place it upside down in the box" is not said of the box.
+        named = last.phrase if last is not None else None
+        part = named is not None and named.kind == "part" and word.startswith(_ON_ITS)
+        if part or (named is not None and named.head in ("it", "them") and not is_measure(word)):
+            # "Place it upside down in the box" is not said of the box, nor "a handle on its side" of the mug.
             token = self._tokens[after - 1]
             self._made.unread.append(self._text[token.start : token.end])
             return None

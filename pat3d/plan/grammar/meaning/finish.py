@@ -147,9 +147,11 @@ def _pair_sides(world: World) -> None:
         if each.side == "centre":
             flanks = {_ORDER[one.side] for one in world.sided if one.side != "centre" and one.owner == each.owner}
             # "A desk with a lamp in the middle and a mug on the left": not only right of the mug.
-            alone = bool(each.owner) and world.support(each.items[0]) is each.owner[0] and len(flanks) < 2
+            carrier = world.support(each.items[0])
+            whole = each.owner or ([carrier] if carrier is not None and world.is_a(carrier, lexicon.LEVEL) else [])
+            alone = bool(whole) and carrier is whole[0] and len(flanks) < 2
             if id(each) not in told or alone:
-                world.arrange("in_middle", each.items, each.owner, f'"{each.items[0].group.words}" in the middle')
+                world.arrange("in_middle", each.items, whole, f'"{each.items[0].group.words}" in the middle')
         elif not inside and (beside or id(each) not in told):
             _side_alone(world, each)
 
@@ -165,7 +167,7 @@ def _from_its_end(world: World, items: list[Item], kind: LateralKind) -> list[It
 
 def _side_alone(world: World, told: Sided) -> None:
     """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
-    kind = _KINDS[_ORDER[told.side]]
+    kind, name = _KINDS[_ORDER[told.side]], f'"{told.items[0].group.words}"'
     implied = [item for item in told.implied or _others_there(world, told) if item not in told.items]
     if implied:
         ends = _from_its_end(world, implied, kind)
@@ -175,15 +177,13 @@ def _side_alone(world: World, told: Sided) -> None:
             world.beside(told.items, kind, [first])
     elif not any(_tells_side(edge, told) for edge in world.laterals):
         if told.side in ("one", "other"):
-            world.note(f'not arranged: "{told.items[0].group.words}" at one end or side')
+            world.note(f"not arranged: {name} at one end or side")
             return
         where = kind.removesuffix("_of").replace("_", " ")
         if any({edge.child, edge.parent} & {*told.items} for edge in world.laterals):
-            world.note(
-                f'not arranged: "{told.items[0].group.words}" on the {told.side}; it is only next to what is said'
-            )
+            world.note(f"not arranged: {name} on the {told.side}; it is only next to what is said")
             return
-        world.note(f'"{told.items[0].group.words}" ({where}): there is nothing beside it that it could be {where} of.')
+        world.note(f"{name} ({where}): there is nothing beside it that it could be {where} of.")
 
 
 def _others_there(world: World, told: Sided) -> list[Item]:
@@ -226,14 +226,14 @@ def _share_supports(world: World) -> None:
                 taken = (one, surface, *world.ancestors(one))
                 # "A table surrounded by chairs on a rug" is on the rug too.
                 rug = around and surface is not None and world.is_a(surface, ("rug", "carpet"))
-                if (
-                    surface is None
-                    or (world.on_floor(lowest) and not rug)
-                    or lowest in {*taken, *world.grounded, *world.floored}
-                ):
+                fixed = lowest in {*taken, *world.grounded, *world.floored}
+                if surface is None or fixed or (world.on_floor(lowest) and not rug):
                     continue
                 if world.is_a(surface, lexicon.LEVEL) or not world.is_a(lowest, lexicon.BY_A_SEAT):
-                    world.place([lowest], "on", [surface])
+                    # "A mug on a desk next to a lamp and books": all the books.
+                    told = {item for each in edges for item in (each.child, each.parent)} | world.supports.keys()
+                    free = [item for item in lowest.group.items if item not in {*told, *world.grounded}]
+                    world.place([lowest, *free], "on", [surface])
         if len(world.supports) == known:
             break
 

@@ -133,6 +133,8 @@ class Placing(Forming):
         before = max((head for head in self._landmarks if head < at), default=None)
         last = self._relating.landmark if before is None else self._landmarks[before]
         landmark, surface = last if last[0] else ([], False) if begun else world.landmark
+        if side == "centre" and not landmark:
+            landmark = self._relating.edged
         if landmark and side == "other" and not surface:
             # "On one side of the plate is a fork, on the other a knife."
             side = "right"
@@ -350,7 +352,8 @@ class Placing(Forming):
                     said = ", ".join(f'"{word}"' for word in idle)
                     self._world.note(f'not modelled: {said} of "{phrase.words}"')
             elif not own or phrase.said not in lexicon.SILENT_PARTS or words.adjectives:
-                self._world.note(f'not modelled: "{phrase.words}" of "{group.words}"')
+                said = " ".join((phrase.words, *words.postures))
+                self._world.note(f'not modelled: "{said}" of "{group.words}"')
         if not owners and phrase.words not in self._world.aside:
             self._world.aside.append(phrase.words)
 

@@ -44,6 +44,7 @@ class Relating:
         self.world = world
         self.landmark: tuple[list[Item], bool] = ([], False)
         """What the sentence last said "to the left of" of, and whether it was "on the left side of"."""
+        self.edged: list[Item] = []  # at whose end something was last said to be
         self.cost = 0.0
         """Of what can only be arranged in part."""
 
@@ -88,6 +89,7 @@ class Relating:
             at, place = link.says.split("_")
             where = f"{at} the {place} of"
             self.relate(children, Link(kind="on" if level else "next_to"), parents)
+            self.edged = parents if level else []
             world.arrange(
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
@@ -108,9 +110,8 @@ class Relating:
             if link.kind not in ("next_to", "around"):
                 self.landmark = (parents, False)
             if link.says == "leaning_against":
-                world.arrange(
-                    "leaning_against", children, parents, f"{said.format('leaning against')}; it is placed next to it"
-                )
+                note = f"{said.format('leaning against')}; it is placed next to it"
+                world.arrange("leaning_against", children, parents, note)
             together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
             if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
@@ -141,7 +142,8 @@ class Relating:
         if len(own) * len(places) > _PAIRS or (link.kind == "next_to" and len(places) > _NEIGHBOURS):
             where = RELATION_WORDS[link.kind or "next_to"]
             self.world.note(f"not arranged: {said.format(where)}, all of them; each is {where} one of them")
-            return [parents]
+            firsts = list({item.group: [item] for item in reversed(places)}.values())[::-1]
+            return firsts if 1 < len(firsts) <= _NEIGHBOURS and len(own) == 1 else [parents]
         return [[place] for place in places]
 
     def _centre(self, children: list[Item], parents: list[Item]) -> list[Item]:
@@ -382,18 +384,16 @@ class Relating:
         world, parent = self.world, parents[0]
         if side == "centre" and len(parents) > 1:
             # "In the middle of the plates"
-            self._between(children, parents)
-            return
+            return self._between(children, parents)
         level = world.is_a(parent, lexicon.LEVEL, lexicon.SEATS) and not world.is_a(parent, ("pillow", "blanket"))
         self.landmark = (parents, True)
         if said == "on the back of" and world.is_a(parent, lexicon.BACKED):
             # "A bird stands on the back of an elephant": an animal's back is its top.
-            self.relate(children, Link(kind="on"), parents)
-            return
+            return self.relate(children, Link(kind="on"), parents)
         on_it = level and not world.likely.stands_by(world.noun(children[0]), world.noun(parent))
         if on_it and side in ("left", "right") and said and "side" not in said.split():
-            beside = f'"to the {side} of" has it beside.'
-            world.note(f'"{children[0].group.words}" {said} "{parent.group.words}": on it; {beside}')
+            told = f'"{children[0].group.words}" {said} "{parent.group.words}"'
+            world.note(f'{told}: on it; "to the {side} of" has it beside.')
         if side == "centre" or on_it:
             kind = world.containment(parent)
             world.place(children, kind, parents)
@@ -403,6 +403,7 @@ class Relating:
             alike = [item for item in parents if item.group is parent.group]
             for landmarks in self._landmarks(children, Link(kind=_HALVES[side]), alike, words, each=each):
                 world.beside(children, _HALVES[side], landmarks)
+        return None
 
 
 def _paired(one: Sequence[Item], other: Sequence[Item]) -> list[tuple[Item, Item]]:

@@ -262,10 +262,11 @@ class World:
             below = old.parent
             free = self.support(below) is None and not self.on_floor(below)
             carries = self.is_table(parent) or self.likely.on(self.noun(below), self.noun(parent)) < 1.0
-            if not weak and carries and free and parent is not below:
-                # "A lamp on a book" that is "on a table": the book is.
-                self._put(below, kind, parent, False)
-                self.note(f'"{below.group.words}" is {kind} "{parent.group.words}", with what it carries.')
+            if carries and free and parent is not below and (not weak or self.is_a(parent, lexicon.LEVEL)):
+                # "A lamp on a book" that is "on a table": the book is, and so are the saucers of a tray's cups.
+                self._put(below, kind, parent, weak)
+                if not weak:
+                    self.note(f'"{below.group.words}" is {kind} "{parent.group.words}", with what it carries.')
             if weak or parent is below or parent in self.ancestors(child):
                 return
             if below not in self.ancestors(parent):

@@ -150,6 +150,16 @@ class Listing(Goals):
         things = all(self._phrase(head).kind in ("object", "unknown") for head in objects.heads)
         return things and objects.joints == "&" and not self._moving
 
+    def _ends_in_neighbours(self, at: int, objects: Node) -> bool:
+        """Whether all the sentence lists is what something is beside: "a knife on a board next to jam, ham and a pear".
+
+        In "a jar, a cup next to a jug, a pot and a pan" the list is of more than the jug's neighbours.
+        """
+        beside = self._link(at).kind in LATERAL_KINDS and self._link(at).manner == "place"
+        listed = len(objects.heads) > 2 and objects.joints.strip(",") in ("&", ";") and not objects.facts
+        first = not any(chunk.kind in ("joint", "clause") for chunk in self._chunks[:at])
+        return beside and listed and first and max(objects.heads) == len(self._chunks) - 1 and not self._moving
+
     def _ends_beside(self, start: int, end: int) -> bool:
         """Whether the chunks from `start` to `end` end with a landmark: "next to a bowl (of nuts)"."""
         at = end - 2

@@ -109,7 +109,7 @@ class Grammar(Listing):
         # "next to a wall and a bench": beside the bench; but not "in front of a window and a rug on the floor".
         backed = said.kind in LATERAL_KINDS and any(self._only_background((head,)) for head in objects.heads)
         placed = any(chunk.kind in ("rel", "place") for chunk in self._chunks[max(objects.heads) + 1 :][:1])
-        ring = ring or (backed and objects.joints == "&" and not placed)
+        ring = ring or (backed and objects.joints == "&" and not placed) or self._ends_in_neighbours(at, objects)
         if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.35 if self._two_landmarks(objects) else 0.5

@@ -10,7 +10,9 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import FILLERS, known_verb
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -20,6 +22,12 @@ _TIMES = frozenset({"morning", "afternoon", "evening", "day"})
 _ALL = frozenset({"there", "everyone", "everybody", "all", "team", "folks", "friend", "buddy"})
 """Who is hailed besides by a name."""
 _ASKING = frozenset({"please", "kindly", "now", "then", "carefully", "gently", "can", "could", "would", "will", "i"})
+_NOBODY = lexicon.GREETINGS | lexicon.BACKGROUND | lexicon.NUMBERS.keys() | FILLERS | {
+    "outside", "inside", "indoors", "outdoors", "upstairs", "downstairs", "there", "here", "nearby", "task",
+}  # fmt: skip
+"""First words before a comma that are not spoken to."""
+_CARRYING = (lexicon.FLOOR, lexicon.LEVEL, lexicon.HOLLOW, lexicon.DISHES)
+_LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
 _LABELS = frozenset({"task", "instruction", "command", "request", "order", "goal", "objective", "step", "mission"})
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
 _SEERS = frozenset({"i", "we", "you", "one"})
@@ -53,6 +61,8 @@ def _without_person(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[To
     after = at + 1
     if not tokens[min(after, len(tokens) - 1)].mark or tokens[at].mark:
         return list(tokens)
+    if not at and _endeared(tokens, nouns):
+        return list(tokens[2:])
     name = text[tokens[at].start : tokens[at].end]
     known = nouns.match([words[at]]) is not None or is_modifier(words[at]) or known_verb(words[at])
     person = name[:1].isupper() and name[1:].islower() and not known and not words[at].endswith("ly")
@@ -61,6 +71,26 @@ def _without_person(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[To
     asked = asked and _commands(words[after + 1 :])
     rest = tokens[after + (words[after] != ".") :]
     return list(rest) if hailed or asked else list(tokens)
+
+
+def _endeared(tokens: Sequence[Token], nouns: Nouns) -> bool:
+    """Whether `tokens` begin with whom they are said to: "Honey, your keys are on the table", "Sugar, move the cup".
+
+    "Honey, bread and a knife are on the table" lists, and "desk, a lamp is on the left" says where the lamp is.
+    """
+    words = [token.text for token in tokens]
+    name = nouns.match(words[:1])
+    no_one = words[0] in _NOBODY or words[0].endswith("ly") or link_at(tokens, 0)
+    if name is not None:
+        no_one = no_one or name.plural or any(nouns.of_class(name.noun, table) for table in _CARRYING)
+    if len(words) < 6 or words[1] != "," or no_one or (name is None and is_modifier(words[0])):
+        return False
+    if words[3] in _LEADING | {"me"} and known_verb(words[2]):
+        return True
+    asked = words[2] in lexicon.MODALS and words[3] == "you"
+    ends = (n for n in range(3, len(words)) if words[n] in FINITE or tokens[n].mark or words[n] == "and")
+    told = words[2] in _LEADING | {"there"} and words[next(ends, 0)] in FINITE
+    return asked or (told and not lexicon.PRONOUNS & {*words})
 
 
 def _without_name(tokens: Sequence[Token]) -> list[Token]:

@@ -31,6 +31,7 @@ _ONE = frozenset({"a", "an", "one", "the", "this", "that", "another", "my", "you
 _CAUSING = frozenset({"let", "make", "have", "see", "watch", "should", "must", "can", "will", "does", "lets", "makes"})
 """Verbs behind which that of one thing has no ending: "let a candle stand on a plate"."""
 _LISTING = frozenset({"and", "or", ",", "plus"})
+_UTENSILS = {"utensils", "cutlery", *lexicon.GENERICS["utensil"], *lexicon.GENERICS["cooking utensil"]}
 
 
 def compounds(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -126,6 +127,8 @@ def _in_company(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         alone = token.text in _HOLDING and at > 0 and nouns.match(words[at - 1 : at + 1]) is None
         held = [one for word in words[:at] for one in (*singulars(word), word) if alone and nouns.match([one])]
         named = [one for one in held if nouns.match([one, token.text.removesuffix("s")])]
+        if alone and token.text == "holder" and not named and _UTENSILS & {*held, *words[:at]}:
+            named = ["utensil"]
         if alone and named and nouns.match([token.text]) is None:
             made.append(replace(token, text=named[-1]))
         made.append(token)

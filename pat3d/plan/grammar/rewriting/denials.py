@@ -37,7 +37,7 @@ _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_nor, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
+    for told in (_nor, _no, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
                  _among, _useless, _all_listed):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
@@ -65,6 +65,20 @@ def _nor(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None
     there = [replace(tokens[0], text=word) for word in ("there", "are")]
     each = [token for (start, stop), joint in zip(spans, joints, strict=True) for token in (joint, *tokens[start:stop])]
     return [*there, *each[1:], tokens[end]], [(tokens[0], tokens[end - 1])]
+
+
+def _no(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "neither a fork nor a knife, just a spoon" as "no fork, just a spoon"."""
+    at = words.index("neither") if "neither" in words else len(words)
+    nor = words.index("nor") if "nor" in words[at:] else 0
+    end = next((n for n in range(nor + 1, len(words)) if tokens[n].mark or link_at(tokens, n)), 0)
+    first = at + 1 + ("".join(words[at + 1 : at + 2]) in lexicon.COUNTING)
+    instead = {"just", "only"} & {*words[end:]} if nor and not FINITE & {*words[nor:end]} else ()
+    if not instead or nouns.longest(words[first:nor]) is None or words[first] in lexicon.DETERMINERS:
+        return None
+    return [*tokens[:at], replace(tokens[at], text="no"), *tokens[first:nor], *tokens[end:]], [
+        (tokens[nor], tokens[end - 1])
+    ]
 
 
 def _lacking(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -7,13 +7,14 @@ from dataclasses import replace
 
 from pat3d.plan.english import plural
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_JOINTS = frozenset({":", ";", ",", "-", "and", "while", "where"})
+_JOINTS = frozenset({":", ";", ",", "-", "and", "while", "where", "with"})
 _PLACES = frozenset({
     "on", "in", "inside", "into", "onto", "atop", "beside", "behind", "under", "underneath", "beneath", "below", "near",
     "by", "against", "over", "above", "at",
@@ -52,10 +53,19 @@ def of_the_counted(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             made[at - 1 : end] = [*comma, made[at], *([] if bare else made[at + 1 : end])]
             at -= 2 - len(comma)
             continue
-        if (_led(words, at) and _counts(words[:at], words[at + 1 : end - 1], several)) or _told_of(words, at, end):
+        member = _told_of(words, at, end) or _stands_among(made, at, end, nouns)
+        if member or (_led(words, at) and _counts(words[:at], words[at + 1 : end - 1], several)):
             of_those = [replace(made[at], text=text) for text in ("of", "the")]
             made[at + 1 : end] = [*of_those, *made[at + 1 : end - 1], replace(name, text=several)]
-    return made
+    return [each for at, token in enumerate(made) for each in _set_off(made, at, token)]
+
+
+def _set_off(tokens: Sequence[Token], at: int, token: Token) -> list[Token]:
+    """`token` of `tokens`, a comma for the "with" of "two jars next to a box, with one of the jars in it"."""
+    words = [each.text for each in tokens[at : at + 3]]
+    if words != ["with", "one", "of"] or not at:
+        return [token]
+    return [] if tokens[at - 1].text == "," else [replace(token, text=",", mark=True)]
 
 
 def _more_of_them(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -118,10 +128,40 @@ def _told_of(words: Sequence[str], at: int, end: int) -> bool:
         return False
     others = any(words[n - 1 : n + 1] == ["the", "other"] for n in range(end + 1, stop))
     is_ = words[end] == "is"
-    told = words[at - 1] != "and" and (words[end] in _HAVING or is_modifier(words[end + is_]))
+    look = words[end + is_]
+    told = (words[at - 1] != "and" and look in _HAVING) or (
+        is_modifier(look) and not (words[at - 1] == "and" and is_colour_word(look))
+    )
     placed = any(word in lexicon.VERBS | _PLACES for word in words[start : at - 1])
     listed = words[at - 1] == ":" and not placed
-    return others or listed or (told and placed)
+    return others or listed or (told and (placed or words[at - 1] == "with"))
+
+
+def _stands_among(tokens: Sequence[Token], at: int, end: int, nouns: Nouns) -> bool:
+    """Whether "one jar" is said to be where one of the jars before can be: "two jars on a desk, one jar in a box".
+
+    "Two jars on a plate, one jar in a box" are three, and so are "two jars on a desk, one jar on a bench"; with "with
+    one jar" they are two.
+    """
+    words = [token.text for token in tokens]
+    start = max((n + 1 for n in range(at) if words[n] == "."), default=0)
+    stop = next((n for n in range(end, len(words)) if words[n] in (".", ",", ";", "and")), len(words))
+    place = next((n for n in range(end, min(end + 4, stop)) if link_at(tokens, n)), 0)
+    before = words[start : at - 1]
+    several = plural(words[end - 1])
+    told = words[at - 1] != "and" or words[end] in FINITE
+    if not (place and told) or words[at - 1] not in _JOINTS or not _counts(before, words[at + 1 : end - 1], several):
+        return False
+    if words[at - 1] == "with":
+        return True
+    carried = bool({"on", "in", "inside", "atop"} & {*before})
+    floor = any(_stands_on_floor(word, nouns) for word in before)
+    return (floor or not carried) and not any(_stands_on_floor(word, nouns) for word in words[place:stop])
+
+
+def _stands_on_floor(word: str, nouns: Nouns) -> bool:
+    name = nouns.match([word])
+    return word in ("floor", "ground") or (name is not None and nouns.of_class(name.noun, lexicon.FLOOR))
 
 
 def _counts(words: Sequence[str], described: Sequence[str], noun: str) -> bool:

@@ -10,6 +10,8 @@ from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
+_FORMATS = frozenset({"landscape", "portrait", "vertical", "horizontal", "square", "format", "orientation", "photo"})
+
 
 def from_parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a cup (red)" as "a red cup", "two cups (stacked)" as "two stacked cups"."""
@@ -21,7 +23,10 @@ def from_parentheses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[T
         opens = token.mark and _said(text, token) == "(" and inside
         colours = sum(is_colour_word(each.text) for each in inside)
         closes = opens and _said(text, tokens[end]) == ")"
-        if closes and colours < 2 and all(is_modifier(each.text) or each.text == "stacked" for each in inside):
+        if closes and all(each.text in _FORMATS for each in inside):
+            # "A bedroom (landscape)": how the photo is turned.
+            at = end + (end < len(tokens) - 1)
+        elif closes and colours < 2 and all(is_modifier(each.text) or each.text == "stacked" for each in inside):
             size = next((n for n in (3, 2, 1) if nouns.match([each.text for each in made[-n:]])), 1)
             made[len(made) - size : len(made) - size] = inside
             at = end + 1

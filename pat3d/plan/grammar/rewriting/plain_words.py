@@ -41,9 +41,9 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     """
     rewritings: tuple[Rewriting, ...] = (
         without_names_of_verbs, partial(ordinals, text), compounds, members_set_off,
-        partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot, told_behind, of_drinks,
-        known_again, of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, of_the_carried, by_rank,
-        at_row_ends, of_unlike_rows, levels_of,
+        partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot, of_the_counted,
+        told_behind, of_drinks, known_again, in_full, served, worked_out, subkinds, by_side, by_size, of_the_carried,
+        by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:

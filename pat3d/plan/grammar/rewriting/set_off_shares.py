@@ -11,13 +11,15 @@ from dataclasses import replace
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, items_of, singulars
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _LEADING = lexicon.DETERMINERS | lexicon.NUMBERS.keys()
 _OPENING = {"(": ")", ",": ",", "-": "-", "\u2014": "\u2014", "\u2013": "\u2013", "[": "]"}
 _REST = (("the", "other"), ("the", "others"), ("the", "rest"), ("the", "remaining"), ("the", "last"))
+_PARTLY = frozenset({"partly", "partially", "halfway", "half", "just", "right", "still"})
+"""Words before where one of several is."""
 _LONGEST = 24
 """Tokens of what is set off."""
 
@@ -27,7 +29,7 @@ Share = tuple[int, list[Token]]
 
 def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "three cups (one red, two blue) and a pen" as "one red cup, two blue cups and a pen"."""
-    made = _of_them(list(tokens), nouns)
+    made = _headed(_of_them(list(tokens), nouns), nouns)
     at = 1
     while at < len(made) - 4:
         told = _told(text, made, at, nouns)
@@ -36,6 +38,26 @@ def by_share(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         else:
             made, at = told
     return made
+
+
+def _headed(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "cubes: three red, one green" as "three red cubes, one green cube"."""
+    words = [token.text for token in tokens]
+    name = next(
+        (n for n in (3, 2, 1) if words[n : n + 1] == [":"] and (one := nouns.match(words[:n])) and one.plural), 0
+    )
+    end, said = name + 1, list[list[Token]]()
+    while name and numeral("".join(words[end : end + 1])) and is_colour_word("".join(words[end + 1 : end + 2])):
+        said.append([*tokens[end : end + 2], *_named(numeral(words[end]), tokens[:name], nouns)])
+        after = next((n for n in range(end + 2, len(words)) if words[n] not in (",", "and")), len(words))
+        goes_on = after > end + 2 and numeral("".join(words[after : after + 1]))
+        end = after if goes_on and is_colour_word("".join(words[after + 1 : after + 2])) else end + 2
+    joints = [replace(tokens[name], text="and" if n == len(said) - 1 else ",", mark=n < len(said) - 1)
+              for n in range(1, len(said))]  # fmt: skip
+    listed = [
+        each for joint, item in zip([[], *([one] for one in joints)], said, strict=False) for each in (*joint, *item)
+    ]
+    return [*listed, *tokens[end:]] if len(said) > 1 else tokens
 
 
 def told_behind(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -73,7 +95,8 @@ def _told_last(tokens: Sequence[Token]) -> list[Token]:
         stop = next((n for n in range(at, len(words)) if words[n] == "."), len(words))
         some = words[at + 1 : at + 4] == ["one", "of", "the"] and words[at + 4] in words[start:at]
         end = at + 2 if words[at + 1] == "both" else at + 5 if some else stop
-        placed = end < stop and (words[end] == "are" or (words[end] != "of" and link_at(tokens, end) > 0))
+        place = end + (words[end] in _PARTLY)
+        placed = end < stop and (words[end] == "are" or (words[end] != "of" and link_at(tokens, place) > 0))
         apart = (some or "one" in words[start:at]) and not {",", "and", "are"} & {*words[end:stop]}
         if placed and apart:
             verb = replace(tokens[at], text="is" if some else "are", mark=False)

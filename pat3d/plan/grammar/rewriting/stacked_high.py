@@ -10,6 +10,7 @@ from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import counted_before, is_number, number_of
 
 _BUILT = frozenset({"tower", "stack", "pile", "column"})
+_TWOS = ("stacks", "of", "2")
 _STACKS = frozenset({"towers", "stacks", "piles", "columns"})
 
 
@@ -24,6 +25,15 @@ def stacked_high(tokens: Sequence[Token]) -> list[Token]:
             # "A tower of red blocks, six blocks high"
             kept = [*tokens[: built + 2], tokens[start], *tokens[built + 2 : start - (words[start - 1] == ",")]]
             return [*kept, *tokens[at + 1 :]]
+    for at in range(3, len(words)):
+        if words[at] == "pairs" and words[at - 3 : at - 1] in (["stacked", "in"], ["piled", "in"]):
+            # "Eight cans stacked in four pairs"
+            return [
+                *tokens[: at - 3],
+                *tokens[at - 2 : at],
+                *(replace(tokens[at], text=word) for word in _TWOS),
+                *tokens[at + 1 :],
+            ]
     for at in range(1, len(words) - 2):
         number = at + 1 + (words[at + 1] == ",")
         high = number_of(words[number])

@@ -85,7 +85,23 @@ class Tails(Remarks):
             if fault < 0 or start <= fault < end or end == fault
         ]
         made.sort(key=lambda span: (span[1] - span[0], span))
-        return [span for span in made if self._says_nothing(*span) or self._is_purpose(*span)][:_TRIED]
+        return [span for span in made if self._idle(*span)][:_TRIED]
+
+    def _idle(self, start: int, end: int) -> bool:
+        idle = self._words[start] != "of" and (self._says_nothing(start, end) or self._is_purpose(start, end))
+        return idle or self._is_content(start, end)
+
+    def _is_content(self, start: int, end: int) -> bool:
+        """Whether "of lye", "of BaCl2 and KOH" tells what no table has, and "with tasty ingredients" nothing."""
+        if self._words[start] == "with":
+            return self._words[end - 1] == "ingredients" and end - start < 4
+        held, joints = self._words[start + 1 : end : 2], {*self._words[start + 2 : end : 2]}
+        told = (
+            lexicon.LEADING | FINITE | lexicon.PRONOUNS | lexicon.VIEWERS | lexicon.GENERICS.keys() | lexicon.SUBSTANCES
+        )
+        known = any(at in self._named for at in range(start, end)) or bool({*held} & told)
+        vessel = self._words[start] == "of" and self._behind_noun(start) and joints <= {"and", ","}
+        return vessel and not known and not any(singulars(word) or is_quality(word) for word in held)
 
     def _is_purpose(self, start: int, end: int) -> bool:
         """Whether "to sweeten the tea" or "for slicing bread" ends a sentence that names something before it."""
@@ -230,6 +246,11 @@ class Tails(Remarks):
             # "After that, ..."
             return [n + 1 for n in marks[:-1] if self._words[n] in (",", ":")]
         behind = self._behind_noun(at)
+        if word == "of" or (word == "with" and "ingredients" in self._words[at:]):
+            ends = {"and", *FINITE}
+            return [
+                n for n in range(at + 2, len(self._words)) if n in marks or self._words[n] in ends or self._placing(n)
+            ]
         finite = [n for n in range(at + 2, len(self._words)) if self._words[n] in FINITE and n < marks[-1]]
         if word == ",":
             return [] if follower in FINITE or self._placing(at + 1) else marks

@@ -329,28 +329,8 @@ DETACHED = frozenset({"lid", "cap", "cover", "handle", "drawer", "door", "knob",
 """Parts with a name that is a thing's too: "the lid of the box" is the box."""
 FITTED = frozenset({"rack", "racks", "tray", "seat", "basket"})
 """Parts of furniture and appliances that are also things of their own."""
-GREETINGS = frozenset(
-    {
-        "hey",
-        "hi",
-        "hello",
-        "ok",
-        "okay",
-        "alright",
-        "dear",
-        "so",
-        "well",
-        "now",
-        "right",
-        "listen",
-        "great",
-        "perfect",
-        "excellent",
-        "wonderful",
-        "awesome",
-        "fantastic",
-    }
-)
+GREETINGS = frozenset({"hey", "hi", "hello", "ok", "okay", "alright", "dear", "so", "well", "now", "right", "listen",
+    "great", "perfect", "excellent", "wonderful", "awesome", "fantastic"})  # fmt: skip
 VIEWERS = frozenset({"you", "me", "us", "viewer", "observer", "onlooker", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
     "clockwise", "counterclockwise", "sideways"})  # fmt: skip

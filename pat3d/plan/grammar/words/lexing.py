@@ -77,6 +77,8 @@ def normalise(prompt: str) -> str:
     text = re.sub(r"\bspaced (?:about )?(?=\d)", "", text)
     # "Forks on display" are shown, and stand on no screen.
     text = re.sub(r" (?:(?:are|is) )?on (?:display|show)\b", "", text)
+    text = re.sub(r"\b3/4(?= view| angle)", "three-quarter", text)
+    text = re.sub(r"\b([^\W\d_]+) (\d{1,2})[x\u00d7](?=[,.;]| and\b|$)", r"\2 \1", text)
     text = re.sub(_LETTERS, _in_between, text)
     text = re.sub(_NAMED, _labelled, text)
     text = re.sub(_GRID, lambda found: f"{_SPELLED[found[1].lower()]}x{_SPELLED[found[2].lower()]} grid", text)
