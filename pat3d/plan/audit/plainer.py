@@ -46,6 +46,7 @@ _PLAINER = tuple((re.compile(said), plain) for said, plain in (
     (rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", ""),
     (r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", ""),
     (r"\b(left|right), of\b", r"\1 of"),
+    (r"(?<![\w-])\d{1,2}- (?=[a-z])", ". "),
 ))  # fmt: skip
 """What is said, and the same in plainer words, in the order in which they are replaced."""
 

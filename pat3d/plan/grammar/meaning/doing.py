@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.chunks import Chunk
@@ -29,6 +30,8 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
+_ABREAST = frozenset({"beside", "side_by_side"})
+"""Forms in which the tasks of two things put one beside the other."""
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
     "palette"})  # fmt: skip
@@ -48,6 +51,8 @@ class Doing(Placing):
             self._said.left = list(world.subject)
         self._handled: set[int] = set()
         """Phrases for everything that were put somewhere."""
+        self._abreast: list[Item] = []
+        """What is to stand next to each other."""
         self._from: list[Item] = []
         """What everything that is moved is on before."""
 
@@ -115,6 +120,10 @@ class Doing(Placing):
             for phrase in phrases
         )
         if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
+            return
+        if self._clause.manner in ("make", "move") and meant and self._chunks[at].text in _ABREAST:
+            self._abreast = self._said.refs_of(heads)
+        if self._abreast[1:]:
             return
         if self._clause.manner is not None and meant:
             self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
@@ -277,6 +286,11 @@ class Doing(Placing):
         free = all(world.support(item) is None and not world.on_floor(item) for item in children)
         if there and children and free and there[0] not in (*children, *parents):
             world.place(children, world.containment(there[0]), there)
+
+    def _put_abreast(self) -> None:
+        """Put each of what is to stand next to each other next to the one before it."""
+        for left, right in pairwise(self._abreast):
+            self._step([right], Link(kind="next_to"), [left])
 
     def _done(self, heads: Sequence[int]) -> None:
         children = self._said.refs_of(heads)

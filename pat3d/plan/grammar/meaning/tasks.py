@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise, takewhile
 
 from pat3d.plan.drawers import DRAWERS
@@ -90,13 +90,22 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
             # "Get the keys and hang them on the hook"
             begun_by = [step for step in steps if step.manner == "pick" and step.items and step not in wanted]
             notes += [f'not modelled: "{step.said}": no task does that.' for step in begun_by]
-    specs = list(dict.fromkeys(specs))
+    specs = _moved_once(dict.fromkeys(specs))
     if len(specs) < STEPS[0]:
         return (specs[0] if specs else None), notes
     if (chain := chain_of(specs)) is None:
         listed = ", ".join(specs)
         notes.append(f"{SEVERAL} {listed}.")
     return chain, notes
+
+
+def _moved_once(specs: Iterable[str]) -> list[str]:
+    """`specs` without that the fork is put on the tray where it comes next to the cup that was put there before it."""
+    told = [spec.split(":") for spec in specs]
+    put = [(each[1], each[2]) for each in told if each[0] == "place"]
+    beside = [(each[1], each[3]) for each in told if each[0] == "beside" and each[2] == "next_to"]
+    again = {(one, goal) for one, mark in beside for mate, goal in put if mate == mark and (one, goal) in put}
+    return [":".join(each) for each in told if each[0] != "place" or (each[1], each[2]) not in again]
 
 
 def _begins(step: Step, later: Sequence[Step]) -> bool:

@@ -31,6 +31,7 @@ _POLITE = tuple(sorted((tuple(said.split()) for said in (
     "be so kind as to", "please be so kind as to", "would you be so kind as to", "i was wondering if you could",
     "it would be great if you could", "it would be nice if you could", "it would be helpful if you could",
     "i would appreciate it if you could", "i'd appreciate it if you could", "i'd be grateful if you could",
+    "would you be able to", "are you able to", "please assist me by", "assist me by", "help me by", "please help me by",
     "don't forget to", "remember to", "go ahead and", "feel free to", "try to", "you may", "you can", "you could",
     "your job is to", "you are to", "you will", "i'd like to have you", "how to", "show me how to", "tell me how to",
     "what is the best way to", "what's the best way to", "can you show me how to", "how about",

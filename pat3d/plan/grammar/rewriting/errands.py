@@ -29,8 +29,11 @@ _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "n
 _AFTER = tuple(tuple(said.split()) for said in (
     "and then", ", then", ", and then", "and also", ", and also", "then", "as well as",
 ))  # fmt: skip
-_ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
-               ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
+_NO_PHRASES = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
+               ("one", "after", "the", "other"), ("piece", "by", "piece"),
+               *(("from", its, current, place) for its in ("its", "their") for current in ("current", "present")
+                 for place in ("location", "position", "place", "spot")))  # fmt: skip
+"""What changes nothing of what is to be done, or no task asks for."""
 _REST = frozenset({"rest", "others"})
 FILLING = frozenset({"fill", "load", "stock", "pack"})
 """Verbs of what something is put in or on."""
@@ -46,11 +49,11 @@ _WHERE_IT_IS = tuple(tuple(said.split()) for said in (
 
 def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what is to be moved, and where to, behind its verb."""
-    made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
+    made = _filled_with(_filled_from(_belonging(_owed(without_phrases(tokens, _NO_PHRASES)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
     made = _goals_alike(_where_another_is(made), nouns)
-    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
+    return _the_rest(_once_again(_added(_carried(_emptied(put_back(made)))), nouns))
 
 
 def _where_another_is(tokens: list[Token]) -> list[Token]:
@@ -121,11 +124,23 @@ def _commands(tokens: Sequence[Token], at: int) -> bool:
 
 
 def _end(tokens: Sequence[Token], at: int) -> int:
-    """Where the instruction that begins at token `at` ends."""
+    """Where the instruction that begins at token `at` ends: "take the cup, the pen and the jar to the desk" is one."""
+
+    def goes_on(n: int) -> bool:
+        """Whether a deed begins at token `n`."""
+        return base_verb(tokens[n].text) == tokens[n].text or tokens[n].text in _PUTTING | {"then"}
+
+    def lists(n: int) -> bool:
+        """Whether the next of a list stands behind the comma at token `n`, with "and" before its last."""
+        ends = (m for m in range(n + 1, len(tokens)) if tokens[m].mark or link_at(tokens, m) or goes_on(m))
+        stop = next(ends, len(tokens) - 1)
+        last = tokens[stop].text == "," and lists(stop)
+        return tokens[n].text == "," and stop > n + 1 and (
+            last or any(tokens[m].text == "and" for m in range(n + 1, stop)))  # fmt: skip
+
     return next(
         n for n in range(at + 1, len(tokens))
-        if tokens[n].mark or (tokens[n].text in ("and", "then") and (
-            base_verb(tokens[n + 1].text) == tokens[n + 1].text or tokens[n + 1].text in _PUTTING | {"then"}))
+        if (tokens[n].mark and not lists(n)) or (tokens[n].text in ("and", "then") and goes_on(n + 1))
     )  # fmt: skip
 
 

@@ -48,6 +48,8 @@ def served(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             del made[article:]
             at += 1 + size
             continue
+        # "All of the groceries"
+        article -= next((n for n in (2, 1) if [each.text for each in made[article - n : article]] == ["all", "of"][:n]), 0)
         made[article:first] = []
         made.append(replace(tokens[at], text=_KINDS[words[at]]))
         at += 1
