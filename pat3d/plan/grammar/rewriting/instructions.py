@@ -97,6 +97,8 @@ _OWING = frozenset({"has", "have", "needs", "need", "is", "are", "was", "were", 
 _NO_DEEDS = frozenset({"like", "mean", "seem", "need", "want", "have", "be", "do", "free", "clear", "lower", "lean",
                        "warm", "dry", "cool", "level", "light", "open", "close"})  # fmt: skip
 """Verbs that describe as often."""
+_MAKING = frozenset({"make", "build", "create", "prepare", "assemble", "form", "construct", "compose", "fix"})
+"""Verbs of what comes about by other deeds."""
 _PURPOSES = frozenset({"make", "begin", "create", "start", "prepare", "access", "complete"})
 
 
@@ -131,6 +133,10 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     def opens(at: int) -> bool:
         return bool(asked(said, nouns, at))
 
+    if by := _made_by(tokens):
+        deed = replace(tokens[by + 1], text=base_verb(tokens[by + 1].text) or "")
+        told = [replace(each, then=True) for each in clauses(text, [deed, *tokens[by + 2 :]], nouns)]
+        return [replace(told[0], aside=(text[tokens[0].start : tokens[by - 1].end], *told[0].aside)), *told[1:]]
     comma, named = forbidden(tokens, opens)
     if comma:
         there = [Clause(tokens=(*named, tokens[-1]))] if named else []
@@ -245,6 +251,18 @@ def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark)
     pronoun = tokens[at + 2].text in ("it", "them") and VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
     return pronoun or bool(_names(tokens[at + 2 : end], nouns) - _names(tokens[:at], nouns))
+
+
+def _made_by(tokens: Sequence[Token]) -> int:
+    """The "by" of "make a snack by placing bread and ham on the plate": what is made so is no object; 0 without."""
+    words = [token.text for token in tokens]
+    verb = next(n for n, word in enumerate(words) if word not in FILLERS | {"could", "can", "would", "you"})
+    by = words.index("by") if words[verb] in _MAKING and "by" in words[verb + 2 :] else 0
+    deed = (base_verb(words[by + 1]) if words[by + 1].endswith("ing") else None) or ""
+    # "Make a tower by stacking the cubes" is to stack them.
+    plain = not {"scene", "scenario", "setup", "image"} & {*words[verb:by]} and deed != "stack"
+    plain = plain and not any(tokens[n].mark or link_at(tokens, n) for n in range(verb, by))
+    return by if by and plain and VERBS.get(deed) in _CARRYING else 0
 
 
 def _names(tokens: Sequence[Token], nouns: Nouns) -> set[str]:
