@@ -32,7 +32,7 @@ _THEN = frozenset({"then", "next", "now", "and", "finally", ",", "please", "also
 """What opens the next of several instructions."""
 _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck", "set"})
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
-_SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
+SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
 _HANDING = (["give"], ["hand"], ["pass"])
 _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
@@ -302,7 +302,7 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
             continue
         sorted_by = "sort" in told and ("into" in [each.text for each in made] or ":" in told)
         if sorted_by and (
-            (token.text == "by" and follower in _SORTS) or (token.text in _SORTS and tokens[at - 1].text == "by")
+            (token.text == "by" and follower in SORTS) or (token.text in SORTS and tokens[at - 1].text == "by")
         ):
             continue
         given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING
