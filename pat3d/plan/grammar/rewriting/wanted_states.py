@@ -75,7 +75,8 @@ def brought_about(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
     describes = _makes_up(told)
     sure = _told_sure if describes else _made_sure
     made: list[list[Token]] = []
-    wanted = all(known_verb(each[0].text) or _wants(each, nouns) for each in told)
+    asked = any(known_verb(each[0].text) for each in told)
+    wanted = all(known_verb(each[0].text) or _wants(each, nouns) or (asked and _goes(each)) for each in told)
     for sentence in told:
         before = {token.text for each in made for token in each}
         if stays := _left_there(sentence, told):
@@ -121,6 +122,12 @@ def _wants(tokens: list[Token], nouns: Nouns) -> bool:
     stands = not any(token.text in SWITCHED for token in wished[-2:])
     furniture = stands and found is not None and nouns.of_class(found.noun, lexicon.FLOOR)
     return bool(verb) and not furniture and (wished != tokens or _ought(tokens))
+
+
+def _goes(tokens: Sequence[Token]) -> bool:
+    """Whether `tokens` tell where something "goes", which behind an instruction is where it is to be put."""
+    goes = next((at for at, token in enumerate(tokens) if token.text in _GOES), 0)
+    return goes > 1 and tokens[0].text in _LEADS and link_at(tokens, goes + 1) > 0
 
 
 def _later(tokens: list[Token]) -> list[Token]:
