@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from pat3d.plan.audit.stacks import with_levels
 from pat3d.plan.audit.words import NUMBERS
+from pat3d.plan.english import set_apart
 
 _EMPTY = "(?:empty|bare|clear|free|clean)"
 _SIDE = "(?:two|three|four|five|six|seven|eight|nine)"
@@ -53,7 +54,7 @@ _PLAINER = tuple((re.compile(said), plain) for said, plain in (
 
 def plainer(prompt: str, find: Callable[[str], str | None]) -> str:
     """`prompt` in lower case and in plainer words; `find` gives the noun that a name means, or None."""
-    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", set_apart(prompt)).replace("\u2019", "'").lower()
     prompt = _COUNTED.sub(lambda it: it[1] if str(NUMBERS.get(it[2])) == it[1] else it[0], prompt)
     for said, plain in _PLAINER:
         prompt = said.sub(plain, prompt)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise, takewhile
 
 from pat3d.plan.drawers import DRAWERS
@@ -48,6 +49,8 @@ _HELD_OVER = re.compile(r"hold\b.*?\b((?:over|above) .*)", re.IGNORECASE)
 """Where a thing is held that stands nowhere then."""
 _HARDLY = 1.0
 """How unlikely it is that something rests on what it is only brought to."""
+_CHOICE = re.compile(r"^(?!.* and ).*\bor\b", re.IGNORECASE)
+"""What leaves a choice of two things, and moves no further ones."""
 _GROWING = ("planter", "flower pot")
 """What something is brought to without being put in it."""
 _KEEPING = ("knife block",)
@@ -132,6 +135,8 @@ def _unsaid(step: Step, world: World) -> list[str]:
     """What `step` asks beyond its task, and what it leaves open."""
     notes: list[str] = []
     verb = next((word for word in step.said.lower().split()[:2] if word in _FORMING), "")
+    if _chosen(step) != step:
+        notes.append(f'"{step.said}": the first that is named is taken.')
     if step.manner == "pick" and (over := _HELD_OVER.match(step.said)):
         notes.append(f'not modelled: "{over[1]}"')
     if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
@@ -176,7 +181,16 @@ def _otherwise(step: Step, world: World, names: Mapping[Item, str]) -> str:
     return f"not arranged: {moved} on {holder}; the task puts it in it" if on and inside else ""
 
 
+def _chosen(step: Step) -> Step:
+    """`step` with the first of what it leaves a choice of: "pick up the pen or the ruler", "in the pot or pan"."""
+    if not _CHOICE.search(step.said):
+        return step
+    items = step.items[:1] if len(step.goal) < 2 else step.items
+    return replace(step, items=items, goal=step.goal[:1])
+
+
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
+    step = _chosen(step)
     if step.manner == "other":
         return _sliding(step, world, names)
     if step.manner == "unload":

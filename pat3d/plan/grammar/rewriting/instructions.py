@@ -158,6 +158,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         told = told or (tokens[at].text == "then" and tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS)
         if joint and told and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
             starts.append((at, found))
+        elif verb is not None and _runs_on(tokens, at, nouns):
+            starts.append((at + 1, at + 1))
         elif verb is not None and _begins_purpose(tokens, at, nouns):
             starts.append((at, at + 1))
     if not starts:
@@ -251,6 +253,15 @@ def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark)
     pronoun = tokens[at + 2].text in ("it", "them") and VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
     return pronoun or bool(_names(tokens[at + 2 : end], nouns) - _names(tokens[:at], nouns))
+
+
+def _runs_on(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
+    """Whether a deed begins behind the name at token `at` without a word between: "take the egg put it in the pot"."""
+    words = [token.text for token in tokens[at : at + 4]]
+    named = nouns.match(words[:1]) is not None and len(words) > 3 and nouns.match(words[:2]) is None
+    first = 2 + (words[1:3] == ["pick", "up"])
+    return named and words[1] in ("put", "place", "pick", "get", "take", "open", "close") and (
+        words[min(first, len(words) - 1)] in (*lexicon.DEFINITE, "it", "them", "a", "an"))  # fmt: skip
 
 
 def _made_by(tokens: Sequence[Token]) -> int:
