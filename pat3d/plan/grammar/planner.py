@@ -136,7 +136,8 @@ class GrammarPlanner(Sparing):
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         away = [f'not modelled: "{each}"' for each in away]
-        world.notes += [*away, *which, *halved, *charted, *shares, *distracting]
+        hued = ["a colour alone is read as a block of it."] if {"block"} & company and "block" not in text.lower() else []
+        world.notes += [*away, *which, *halved, *charted, *shares, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

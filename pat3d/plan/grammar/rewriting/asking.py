@@ -343,7 +343,8 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
         return [sentence]
     for at in range(verb + 1, len(words) - 3):
         every = next((len(said) for said in _EVERY if tuple(words[at : at + len(said)]) == said), 0)
-        if not every or words[at + every] in ("off", "from"):
+        source = words[at + every] in ("off", "from")
+        if not every or (source and not {"except", "excluding"} & {*words}):
             continue
         # "all the toys but the robot", "everything on the tray but the cup"
         for but in range(at + every, len(words) - 2):
@@ -358,7 +359,8 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             out = but > at + every + 2 and words[at + every : at + every + 2] == ["out", "of"]
             where = [replace(sentence[but], text=word) for word in ("is", "in")] if out else []
             left = [*sentence[but + size : end], *where, *sentence[at + every + 2 : but if out else 0], sentence[-1]]
-            if words[at] == "all" and every == 1:
+            if source or (words[at] == "all" and every == 1):
+                left = [*left[: end - but - size], sentence[-1]]
                 return [left, [*sentence[:but], *sentence[end:]]]
             everything = replace(sentence[at], text="everything", end=sentence[end - 1].end)
             return [left, [*sentence[:at], everything, *sentence[at + every : but], *sentence[end:]]]
