@@ -40,7 +40,7 @@ _MASSES = frozenset({
 
 
 def set_apart(text: str) -> str:
-    """`text` with "AlarmClock" as two words, and with a stop where the next sentence begins: "in the box We need it"."""
+    """`text` with "AlarmClock" as two words, and a stop where the next sentence begins: "in the box We need it"."""
     text = re.sub(r"(?<!\bMac)(?<=[a-z]{2})(?=[A-Z][a-z]{2})", " ", text)
     text = re.sub(r", after that,?(?= )", ", then", text)
     text = re.sub(r"\bdrawer compartment\b", "drawer", text)

@@ -76,6 +76,7 @@ TAILS = 3
 CLOSE = 0.3
 """Readings that differ by less in cost are both told, which one sentence in thirty has."""
 _COLOURS_ARE = (["the", "colors", "are"], ["the", "colours", "are"])
+_BLOCK = "a colour alone is read as a block of it."
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
@@ -136,7 +137,7 @@ class GrammarPlanner(Sparing):
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         away = [f'not modelled: "{each}"' for each in away]
-        hued = ["a colour alone is read as a block of it."] if {"block"} & company and "block" not in text.lower() else []
+        hued = [_BLOCK] if "block" in company and "block" not in text.lower() else []
         world.notes += [*away, *which, *halved, *charted, *shares, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):

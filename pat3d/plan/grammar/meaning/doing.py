@@ -122,7 +122,11 @@ class Doing(Placing):
         if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
             return
         if self._clause.manner in ("make", "move") and meant and self._chunks[at].text in _ABREAST:
-            self._abreast = self._said.refs_of(heads)
+            told = self._said.refs_of(heads)
+            moved = {item for step in self._world.steps for item in step.items}
+            # "Move the toys to the couch with the cushions. Place them next to each other": of the toys.
+            pronoun = any(phrase is not None and phrase.kind == "pronoun" for phrase in phrases)
+            self._abreast = told if not (pronoun and moved) or moved & {*told} else []
         if self._abreast[1:]:
             return
         if self._clause.manner is not None and meant:

@@ -152,7 +152,10 @@ def _goals(
         thing, goal = part[part[0].text in ("the", "a", "an") : at], part[at:]
         if thing[-1].text in ("one", "ones") and kind:
             ones = True
-            thing = [*thing[:-1], *(replace(thing[-1], text=each.text) for each in kind)]
+            called = [each.text for each in kind if not numeral(each.text)]
+            if thing[-1].text == "one":
+                called[-1] = next(iter(singulars(called[-1])), called[-1])
+            thing = [*thing[:-1], *(replace(thing[-1], text=word) for word in called)]
         if goal[-1].text == "one" and (made or into):
             # "Into the left tray, big ones into the right one"
             goal = [*goal[:-1], replace(goal[-1], text=made[-1].text if made else next(iter(singulars(into[-1]))))]

@@ -63,10 +63,10 @@ def _with_limb(tokens: Sequence[Token], at: int) -> int:
     """The token behind "with your left hand", "using arm B", at token `at` of an instruction; 0 where none acts."""
     last = len(tokens) - 1
     end = _limb(tokens, at + 1, _LIMBS) if tokens[at].text in ("with", "using") and at < last else 0
-    if not end:
+    if not end or end > last:
         return 0
-    label = tokens[end].text.isdecimal() or (len(tokens[end].text) == 1 and tokens[end].text.isalpha())
-    label = label and tokens[end - 1].text in ("arm", "hand", "gripper") and (tokens[end].text != "a" or tokens[end + 1].mark)
+    label = end < last and len(tokens[end].text) == 1 and tokens[end].text.isalnum()
+    label = label and tokens[end - 1].text in _LIMBS and (tokens[end].text != "a" or tokens[end + 1].mark)
     told = label or {"left", "right", "both", "other"} & {token.text for token in tokens[at:end]}
     end += label
     opens = not at or tokens[at - 1].text in ("and", "then", ",", ".")

@@ -69,8 +69,8 @@ def _holder_first(tokens: list[Token]) -> list[Token]:
             continue
         mark = aside + link_at(tokens, aside)
         then = next((n for n in range(mark, len(words)) if words[n] == "and"), mark) if between else mark
-        comma = next(n for n in range(then + 1, len(words))
-                     if tokens[n].mark or link_at(tokens, n) or words[n] in ("and", "then"))  # fmt: skip
+        comma = next((n for n in range(then + 1, len(words) - 1)
+                      if tokens[n].mark or link_at(tokens, n) or words[n] in ("and", "then")), then)  # fmt: skip
         on = comma + (words[comma] == ",")
         holds = words[on] in _HOLDING and _leads(tokens, on + 1) and (on > comma or between)
         end = next((n for n in range(on + 1, len(words)) if tokens[n].mark or words[n] in ("and", "then")), on)

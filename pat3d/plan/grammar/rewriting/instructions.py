@@ -267,9 +267,9 @@ def _runs_on(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
 def _made_by(tokens: Sequence[Token]) -> int:
     """The "by" of "make a snack by placing bread and ham on the plate": what is made so is no object; 0 without."""
     words = [token.text for token in tokens]
-    verb = next(n for n, word in enumerate(words) if word not in FILLERS | {"could", "can", "would", "you"})
-    by = words.index("by") if words[verb] in _MAKING and "by" in words[verb + 2 :] else 0
-    deed = (base_verb(words[by + 1]) if words[by + 1].endswith("ing") else None) or ""
+    verb = next((n for n, word in enumerate(words) if word not in FILLERS | {"could", "can", "would", "you"}), 0)
+    by = words.index("by") if words[verb] in _MAKING and "by" in words[verb + 2 : -1] else 0
+    deed = (base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None) or ""
     # "Make a tower by stacking the cubes" is to stack them.
     plain = not {"scene", "scenario", "setup", "image"} & {*words[verb:by]} and deed != "stack"
     plain = plain and not any(tokens[n].mark or link_at(tokens, n) for n in range(verb, by))

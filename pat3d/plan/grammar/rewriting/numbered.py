@@ -33,7 +33,7 @@ def steps(text: str, tokens: Sequence[Token], _: Nouns) -> list[Token]:
         if begins and (known_verb(verb) or verb == "done"):
             number = int(token.text)
             made += [replace(token, text=".", mark=True)] if made and not made[-1].mark else []
-        elif not (number and token.text == "done" and tokens[at + 1].mark and made[-1].mark):
+        elif not (number and token.text == "done" and at + 1 < len(tokens) and tokens[at + 1].mark and made[-1].mark):
             made.append(token)
     return made
 
