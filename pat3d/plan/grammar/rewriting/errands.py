@@ -59,7 +59,7 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _holder_first(tokens: list[Token]) -> list[Token]:
-    """`tokens` with "put the pen between the cup and the jar, on the tray" as "put the pen on the tray, between ..."."""
+    """`tokens` with "put the pen between the cup and the jar, on the tray" as "... on the tray, between ..."."""
     words = [token.text for token in tokens]
     for at in (n for n in range(len(words)) if words[n] in _PUTTING and _commands(tokens, n)):
         aside = next((n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n)), at)

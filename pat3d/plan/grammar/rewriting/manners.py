@@ -37,9 +37,10 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",
     rf"in(?:to)? {_NUMBER} (?:groups|clusters)(?: of {_NUMBER})?(?: each)?",
     # "the flat dish often used for serving food", "the basket meant for carrying groceries"
-    r"(?:(?:, )?(?:which|that) (?:is|are) |(?<!is )(?<!are )(?<!be ))(?:(?:often|typically|usually|commonly|generally) )?"
+    r"(?:(?:, )?(?:which|that) (?:is|are) |(?<!is )(?<!are )(?<!be ))(?:(?:often|typically|usually|commonly) )?"
     r"(?:used|designed|meant|intended) (?:for|to|on|when)(?: (?!(?:then|which|in|on|onto|into|inside|within|next|from"
-    r"|is|are|stands?|lies?|sits?|holds?) |and (?:it|place|put|set|deposit|insert|add|shut|close|then|the|a) |[.,:;-] )\S+)+",
+    r"|is|are|stands?|lies?|sits?|holds?) |and (?:it|place|put|set|deposit|insert|add|shut|close|then|the|a) "
+    r"|[.,:;-] )\S+)+",
     # "press the button twice", "push the box until it reaches the edge", "a sofa facing south-west"
     rf"(?<!than )(?<!and )(?<!as )(?<!or )(?:twice|thrice|(?:{_NUMBER}|{'|'.join(lexicon.VAGUE)}) times)(?! as )",
     r"(?:, )?(?:until|till) (?!then |now )(?:(?![.,:-] )\S+ )*(?![.,:-] )\S+",

@@ -39,7 +39,7 @@ def with_their_amount(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def blocks_of_colours(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` of a prompt that names no thing with "stack red on green" as "stack the red block on the green block"."""
+    """`tokens` of a prompt without a thing with "stack red on green" as "stack the red block on the green block"."""
     words = [token.text for token in tokens]
     hues = [at for at in range(1, len(words) - 1) if is_colour_word(words[at]) and (
         tokens[at + 1].mark or link_at(tokens, at + 1) or words[at + 1] in ("and", "then"))]  # fmt: skip

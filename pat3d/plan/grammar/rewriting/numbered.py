@@ -20,7 +20,7 @@ _FORMS = frozenset({"structure", "formation", "wall", "square", "space", "spaces
 
 
 def steps(text: str, tokens: Sequence[Token], _: Nouns) -> list[Token]:
-    """`tokens` of the prompt `text` with "1- take the pen 2- put it in the cup 3- done" as sentences without numbers."""
+    """`tokens` of the prompt `text` with "1- take the pen 2- put it in the cup" as sentences without numbers."""
     made: list[Token] = []
     number = 0
     for at, token in enumerate(tokens):

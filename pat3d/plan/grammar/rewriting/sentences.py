@@ -198,8 +198,9 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
         after = comma + 1 + (words[comma + 1 : comma + 2] in (["then"], ["please"]))
         asked = comma > 3 and base_verb(words[after]) == words[after]
         opens = words[0] in CONDITIONS and (words[1] in lexicon.DETERMINERS or words[1] == "there")
-        verbs = (n for n in range(4, len(words) - 2) if known_verb(words[n]) and FINITE & {*words[1:n]}
-                 and words[n + 1] in lexicon.DEFINITE | {"it", "them"} and words[n - 1] not in lexicon.MODALS | {"to"})  # fmt: skip
+        verbs = (n for n in range(4, len(words) - 2)
+                 if known_verb(words[n]) and words[n + 1] in lexicon.DEFINITE | {"it", "them"}
+                 and FINITE & {*words[1:n]} and words[n - 1] not in lexicon.MODALS | {"to"})  # fmt: skip
         if opens and asked and set(words[1:comma]) & FINITE:
             made += [[*sentence[:comma], replace(sentence[comma], text=".")], list(sentence[after:])]
         elif opens and (verb := next(verbs, 0)) and not any(token.mark for token in sentence[:verb]):
