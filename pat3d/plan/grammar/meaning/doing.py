@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.chunks import Chunk
@@ -30,8 +29,6 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
-_ABREAST = frozenset({"beside", "side_by_side"})
-"""Forms in which the tasks of two things put one beside the other."""
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
     "palette"})  # fmt: skip
@@ -51,8 +48,6 @@ class Doing(Placing):
             self._said.left = list(world.subject)
         self._handled: set[int] = set()
         """Phrases for everything that were put somewhere."""
-        self._abreast: list[Item] = []
-        """What is to stand next to each other."""
         self._from: list[Item] = []
         """What everything that is moved is on before."""
 
@@ -119,15 +114,8 @@ class Doing(Placing):
             phrase is not None and (phrase.definite or phrase.kind == "pronoun" or (led and not phrase.determined))
             for phrase in phrases
         )
-        if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
-            return
-        if self._clause.manner in ("make", "move") and meant and self._chunks[at].text in _ABREAST:
-            told = self._said.refs_of(heads)
-            moved = {item for step in self._world.steps for item in step.items}
-            # "Move the toys to the couch with the cushions. Place them next to each other": of the toys.
-            pronoun = any(phrase is not None and phrase.kind == "pronoun" for phrase in phrases)
-            self._abreast = told if not (pronoun and moved) or moved & {*told} else []
-        if self._abreast[1:]:
+        abreast = self._clause.manner in ("make", "move") and meant and self._stand_abreast(at, heads)
+        if abreast or (self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower")):
             return
         if self._clause.manner is not None and meant:
             self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
@@ -291,11 +279,6 @@ class Doing(Placing):
         if there and children and free and there[0] not in (*children, *parents):
             world.place(children, world.containment(there[0]), there)
 
-    def _put_abreast(self) -> None:
-        """Put each of what is to stand next to each other next to the one before it."""
-        for left, right in pairwise(self._abreast):
-            self._step([right], Link(kind="next_to"), [left])
-
     def _done(self, heads: Sequence[int]) -> None:
         children = self._said.refs_of(heads)
         if self._clause.verb in SHUTTING and [self._chunks[head].text.lower() for head in heads] == ["it"]:
@@ -410,9 +393,6 @@ class Doing(Placing):
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if (
-            phrase is not None
-            and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
-            and phrase.kind == "object"
-        ):
+        parts = lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
+        if phrase is not None and phrase.part in parts and phrase.kind == "object":
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')

@@ -12,7 +12,7 @@ from typing import Literal
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.commands import commanded
-from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens
+from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens, made_by, runs_on
 from pat3d.plan.grammar.rewriting.errands import errands, left_alone
 from pat3d.plan.grammar.rewriting.fronted import forbidden, in_order
 from pat3d.plan.grammar.rewriting.outcomes import end_state
@@ -97,8 +97,6 @@ _OWING = frozenset({"has", "have", "needs", "need", "is", "are", "was", "were", 
 _NO_DEEDS = frozenset({"like", "mean", "seem", "need", "want", "have", "be", "do", "free", "clear", "lower", "lean",
                        "warm", "dry", "cool", "level", "light", "open", "close"})  # fmt: skip
 """Verbs that describe as often."""
-_MAKING = frozenset({"make", "build", "create", "prepare", "assemble", "form", "construct", "compose", "fix"})
-"""Verbs of what comes about by other deeds."""
 _PURPOSES = frozenset({"make", "begin", "create", "start", "prepare", "access", "complete"})
 
 
@@ -133,7 +131,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     def opens(at: int) -> bool:
         return bool(asked(said, nouns, at))
 
-    if by := _made_by(tokens):
+    if by := made_by(tokens):
         deed = replace(tokens[by + 1], text=base_verb(tokens[by + 1].text) or "")
         told = [replace(each, then=True) for each in clauses(text, [deed, *tokens[by + 2 :]], nouns)]
         return [replace(told[0], aside=(text[tokens[0].start : tokens[by - 1].end], *told[0].aside)), *told[1:]]
@@ -158,7 +156,7 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         told = told or (tokens[at].text == "then" and tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS)
         if joint and told and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
             starts.append((at, found))
-        elif verb is not None and _runs_on(tokens, at, nouns):
+        elif verb is not None and runs_on(tokens, at, nouns):
             starts.append((at + 1, at + 1))
         elif verb is not None and _begins_purpose(tokens, at, nouns):
             starts.append((at, at + 1))
@@ -253,27 +251,6 @@ def _begins_purpose(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
     end = next(n for n in range(at + 1, len(tokens)) if tokens[n].mark)
     pronoun = tokens[at + 2].text in ("it", "them") and VERBS.get(base_verb(verb) or verb) in ("make", "move", "stack")
     return pronoun or bool(_names(tokens[at + 2 : end], nouns) - _names(tokens[:at], nouns))
-
-
-def _runs_on(tokens: Sequence[Token], at: int, nouns: Nouns) -> bool:
-    """Whether a deed begins behind the name at token `at` without a word between: "take the egg put it in the pot"."""
-    words = [token.text for token in tokens[at : at + 4]]
-    named = nouns.match(words[:1]) is not None and len(words) > 3 and nouns.match(words[:2]) is None
-    first = 2 + (words[1:3] == ["pick", "up"])
-    return named and words[1] in ("put", "place", "pick", "get", "take", "open", "close") and (
-        words[min(first, len(words) - 1)] in (*lexicon.DEFINITE, "it", "them", "a", "an"))  # fmt: skip
-
-
-def _made_by(tokens: Sequence[Token]) -> int:
-    """The "by" of "make a snack by placing bread and ham on the plate": what is made so is no object; 0 without."""
-    words = [token.text for token in tokens]
-    verb = next((n for n, word in enumerate(words) if word not in FILLERS | {"could", "can", "would", "you"}), 0)
-    by = words.index("by") if words[verb] in _MAKING and "by" in words[verb + 2 : -1] else 0
-    deed = (base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None) or ""
-    # "Make a tower by stacking the cubes" is to stack them.
-    plain = not {"scene", "scenario", "setup", "image"} & {*words[verb:by]} and deed != "stack"
-    plain = plain and not any(tokens[n].mark or link_at(tokens, n) for n in range(verb, by))
-    return by if by and plain and VERBS.get(deed) in _CARRYING else 0
 
 
 def _names(tokens: Sequence[Token], nouns: Nouns) -> set[str]:

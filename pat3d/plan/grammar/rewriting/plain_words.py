@@ -42,9 +42,9 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     """
     rewritings: tuple[Rewriting, ...] = (
         without_names_of_verbs, partial(steps, text), partial(ordinals, text), compounds, blocks_of_colours,
-        members_set_off, partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot, told_behind, of_drinks,
-        known_again, of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size, of_the_carried, by_rank,
-        at_row_ends, of_unlike_rows, levels_of,
+        members_set_off, partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot,
+        told_behind, of_drinks, known_again, of_the_counted, in_full, served, worked_out, subkinds, by_side, by_size,
+        of_the_carried, by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:
