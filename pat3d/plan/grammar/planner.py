@@ -137,7 +137,8 @@ class GrammarPlanner(Sparing):
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         away = [f'not modelled: "{each}"' for each in away]
-        hued = [_BLOCK] if "block" in company and "block" not in text.lower() else []
+        hues = (text[token.start : token.end].lower() for token in tokens if token.text == "block")
+        hued = [_BLOCK] if any(map(is_colour_word, hues)) else []
         world.notes += [*away, *which, *halved, *charted, *shares, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):

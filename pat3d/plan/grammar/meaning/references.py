@@ -31,7 +31,8 @@ class References(Members):
     def _put_on_itself(self, at: int, phrase: Phrase, found: Sequence[Item]) -> bool:
         """Whether chunk `at` would be what is put there: "put the cup on the upside-down cup" is of two cups."""
         new = self.asked and at - 1 in self.goals and all(item.group not in self.before for item in found)
-        told = {item for head, items in self.known.items() if head < at for item in items}
+        moved = {head for one, other in self.related if at in other for head in one}
+        told = {item for head in moved for item in self.known.get(head, [])}
         return new and {*found} <= told and all(item.group.words.lower() != phrase.words.lower() for item in found)
 
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:

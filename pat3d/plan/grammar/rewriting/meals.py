@@ -41,7 +41,8 @@ def served(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         first = _adjectives_before(made)
         lead = made[first - 1].text if first else ""
         deed = any(token.text in _MAKING for token in made[first:])
-        if words[at] in _UNNAMED and lead == "the" and known_verb(words[0]) and not nouns.match(words[at : at + 2]):
+        alone = words[at] in _UNNAMED and words.count(words[at]) == 1 and not nouns.match(words[at - 1 : at + 1])
+        if alone and lead == "the" and known_verb(words[0]) and not nouns.match(words[at : at + 2]):
             # "Put the bottle on the stand"
             made.append(replace(tokens[at], text=f"unnamed {words[at]}"))
             at += 1

@@ -44,7 +44,8 @@ def blocks_of_colours(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     hues = [at for at in range(1, len(words) - 1) if is_colour_word(words[at]) and (
         tokens[at + 1].mark or link_at(tokens, at + 1) or words[at + 1] in ("and", "then"))]  # fmt: skip
     others = [word for at, word in enumerate(words) if at not in hues and nouns.match([word])]
-    if words[0] not in _STACKING or len(hues) < 2 or others:
+    on = any(link_at(tokens, at + 1) for at in hues)
+    if words[0] not in _STACKING or len(hues) < 2 or others or not on:
         return list(tokens)
     made: list[Token] = []
     for at, token in enumerate(tokens):
