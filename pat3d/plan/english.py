@@ -42,6 +42,7 @@ _MASSES = frozenset({
 def set_apart(text: str) -> str:
     """`text` with "AlarmClock" as two words, and a stop where the next sentence begins: "in the box We need it"."""
     text = re.sub(r"(?<!\bMac)(?<=[a-z]{2})(?=[A-Z][a-z]{2})", " ", text)
+    text = re.sub(r"\b([Ss]emi|[Hh]alf)[- ]circle\b", "semicircle", text)
     text = re.sub(r", after that,?(?= )", ", then", text)
     text = re.sub(r"\bdrawer compartment\b", "drawer", text)
     return re.sub(r"(?<=[a-z]) (?=(?:We|Its?|It's|Id|I'd|Thanks?|This|There|Dont|Were|Please)\b)", ". ", text)

@@ -30,7 +30,6 @@ from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.acting import without_actor
 from pat3d.plan.grammar.rewriting.addressed import unaddressed
 from pat3d.plan.grammar.rewriting.apposed import apposed
-from pat3d.plan.grammar.rewriting.arcs import arcs
 from pat3d.plan.grammar.rewriting.compass import compass
 from pat3d.plan.grammar.rewriting.denials import without_denials
 from pat3d.plan.grammar.rewriting.distances import with_distances
@@ -123,7 +122,6 @@ class GrammarPlanner(Sparing):
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         check_language(text := normalise(prompt))
         tokens, distracting = without_distractors(text, tokenise(text))
-        tokens, halved = arcs(text, tokens)
         tokens, charted = compass(text, tokens)
         tokens, shares = in_numbers(text, tokens, self._nouns)
         tokens = in_plain_words(text, tokens, self._nouns)
@@ -139,7 +137,7 @@ class GrammarPlanner(Sparing):
         away = [f'not modelled: "{each}"' for each in away]
         hues = (text[token.start : token.end].lower() for token in tokens if token.text == "block")
         hued = [_BLOCK] if any(map(is_colour_word, hues)) else []
-        world.notes += [*away, *which, *halved, *charted, *shares, *distracting, *hued]
+        world.notes += [*away, *which, *charted, *shares, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

@@ -165,7 +165,8 @@ def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     said = " ".join(words) + " "
     for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
         at, end = (said.count(" ", 0, place) for place in found.span())
-        if at and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end)):
+        ends = end < len(tokens) and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end))
+        if at and ends:
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
 
