@@ -51,6 +51,7 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     rf"in (?:{_DIRECTION} order(?: of (?:{_DIRECTION} )?{_MEASURE})?|order of (?:{_DIRECTION} )?{_MEASURE})",
 ))  # fmt: skip
 """What is said of how something looks, is turned or is done, wherever it stands."""
+_KINDS = frozenset({"appliance", "furniture", "device", "item", "object", "tool", "utensil"})
 _ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
 
 _OUTLINES = UNPLANNED - PLACES - RINGS - {"pyramid", "grid", "matrix", "staircase", "stairway", "cantilever"}
@@ -166,7 +167,9 @@ def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
         at, end = (said.count(" ", 0, place) for place in found.span())
         ends = end < len(tokens) and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end))
-        if at and ends:
+        # "The appliance used for heating food": which one is told by it.
+        told = words[at - 1] in _KINDS and "for" in words[at + 1 : at + 4]
+        if at and ends and not told:
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
 

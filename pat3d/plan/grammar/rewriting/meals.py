@@ -14,7 +14,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.generics import MEALS
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_modifier, looks_like_adjective
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _KINDS = {name.split()[1]: name for name in MEALS}
@@ -42,6 +42,7 @@ def served(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         lead = made[first - 1].text if first else ""
         deed = any(token.text in _MAKING for token in made[first:])
         alone = words[at] in _UNNAMED and words.count(words[at]) == 1 and not nouns.match(words[at - 1 : at + 1])
+        alone = alone and all(is_colour_word(token.text) for token in made[first:])
         if alone and lead == "the" and known_verb(words[0]) and not nouns.match(words[at : at + 2]):
             # "Put the bottle on the stand"
             made.append(replace(tokens[at], text=f"unnamed {words[at]}"))

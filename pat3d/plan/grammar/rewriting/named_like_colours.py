@@ -41,7 +41,7 @@ def with_their_amount(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def blocks_of_colours(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of a prompt without a thing with "stack red on green" as "stack the red block on the green block"."""
     words = [token.text for token in tokens]
-    hues = [at for at in range(1, len(words) - 1) if is_colour_word(words[at]) and (
+    hues = [at for at in range(1, len(words) - 1) if is_colour_word(words[at]) and not nouns.match([words[at]]) and (
         tokens[at + 1].mark or link_at(tokens, at + 1) or words[at + 1] in ("and", "then"))]  # fmt: skip
     others = [word for at, word in enumerate(words) if at not in hues and nouns.match([word])]
     on = any(link_at(tokens, at + 1) for at in hues)
