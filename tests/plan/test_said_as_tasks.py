@@ -229,3 +229,19 @@ def test_what_goes_next_to_each_other_in_a_description_is_there():
 def test_one_thing_is_not_put_on_itself(prompt):
     with pytest.raises(PromptError, match="are one thing here"):
         PLANNER.plan(prompt)
+
+
+@pytest.mark.parametrize(
+    "prompt",
+    ["Put the jug in the woven holder.", "Put the fig into the appliance used for baking bread.",
+     "Stack in the order of red, blue and white"],
+)  # fmt: skip
+def test_what_is_not_known_is_not_guessed(prompt):
+    try:
+        assert PLANNER.plan(prompt).task is None
+    except PromptError as error:
+        assert "holder" in str(error) or "order" in str(error)
+
+
+def test_a_fruit_that_is_called_like_a_colour_is_no_block():
+    assert PLANNER.plan("Move the lime next to the orange").task == "beside:lime:next_to:orange"
