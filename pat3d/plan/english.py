@@ -17,6 +17,7 @@ MISSPELLED = {
     "nad": "and",
     "wich": "which",
     "thier": "their",
+    "thats": "that's",
 }
 """Slips in words that name nothing; of nouns the vocabulary knows more."""
 NUMBERED_BARE = frozenset({"block", "box", "cube", "brick"})
@@ -36,6 +37,15 @@ _MASSES = frozenset({
     "jewelry", "sandpaper", "tape", "cream cheese", "ginger",
 })  # fmt: skip
 """What is told of as "some flour" where there is one of it."""
+
+
+def set_apart(text: str) -> str:
+    """`text` with "AlarmClock" as two words, and a stop where the next sentence begins: "in the box We need it"."""
+    text = re.sub(r"(?<!\bMac)(?<=[a-z]{2})(?=[A-Z][a-z]{2})", " ", text)
+    text = re.sub(r"\b([Ss]emi|[Hh]alf)[- ]circle\b", "semicircle", text)
+    text = re.sub(r", after that,?(?= )", ", then", text)
+    text = re.sub(r"\bdrawer compartment\b", "drawer", text)
+    return re.sub(r"(?<=[a-z]) (?=(?:We|Its?|It's|Id|I'd|Thanks?|This|There|Dont|Were|Please)\b)", ". ", text)
 
 
 def is_plural(base: str) -> bool:

@@ -78,7 +78,7 @@ def test_what_is_wanted_open_is_not_fetched(prompt: str):
 def test_it_is_what_an_instruction_that_was_not_read_is_about(prompt: str, task: str | None):
     plan = planned(prompt)
     assert plan.task == task
-    assert any(note.startswith("not understood") for note in plan.notes)
+    assert any(note.startswith(("not understood", 'not modelled: "used for')) for note in plan.notes)
 
 
 @pytest.mark.parametrize(

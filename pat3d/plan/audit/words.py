@@ -212,7 +212,7 @@ BREAKING = (
 _BUILDING = """
 a an the that this these those its their it them they his her my your our some any all both each every either other
 another own same which who one ones and or but then while so as also too plus here there where is are was were be been
-visible immediately entirely
+visible immediately entirely able assist help current present location
 being has have had do does of to at by in on with for from into onto up down out off over next side sides row rows line
 consists consisting surround surrounds encircle encircles include includes
 stack pile top middle center centre edge corner end left right front back first second third last nothing showing

@@ -30,7 +30,6 @@ from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.acting import without_actor
 from pat3d.plan.grammar.rewriting.addressed import unaddressed
 from pat3d.plan.grammar.rewriting.apposed import apposed
-from pat3d.plan.grammar.rewriting.arcs import arcs
 from pat3d.plan.grammar.rewriting.compass import compass
 from pat3d.plan.grammar.rewriting.denials import without_denials
 from pat3d.plan.grammar.rewriting.distances import with_distances
@@ -76,6 +75,7 @@ TAILS = 3
 CLOSE = 0.3
 """Readings that differ by less in cost are both told, which one sentence in thirty has."""
 _COLOURS_ARE = (["the", "colors", "are"], ["the", "colours", "are"])
+_BLOCK = "a colour alone is read as a block of it."
 _CHOICE = '"or" is read as "and": everything named is placed.'
 
 
@@ -122,7 +122,6 @@ class GrammarPlanner(Sparing):
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         check_language(text := normalise(prompt))
         tokens, distracting = without_distractors(text, tokenise(text))
-        tokens, halved = arcs(text, tokens)
         tokens, charted = compass(text, tokens)
         tokens, shares = in_numbers(text, tokens, self._nouns)
         tokens = in_plain_words(text, tokens, self._nouns)
@@ -136,7 +135,9 @@ class GrammarPlanner(Sparing):
         world, others = World(self._likely), list[tuple[int, World]]()
         away = (*(quoted(text, span) for span in talk), *beside_robot, *unlaid)
         away = [f'not modelled: "{each}"' for each in away]
-        world.notes += [*away, *which, *halved, *charted, *shares, *distracting]
+        hues = (text[token.start : token.end].lower() for token in tokens if token.text == "block")
+        hued = [_BLOCK] if any(map(is_colour_word, hues)) else []
+        world.notes += [*away, *which, *charted, *shares, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

@@ -117,7 +117,8 @@ class Doing(Placing):
             phrase is not None and (phrase.definite or phrase.kind == "pronoun" or (led and not phrase.determined))
             for phrase in phrases
         )
-        if self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower"):
+        abreast = self._clause.manner in ("make", "move") and meant and self._stand_abreast(at, heads)
+        if abreast or (self._clause.manner == "stack" and meant and self._chunks[at].text in ("stack", "tower")):
             return
         if self._clause.manner is not None and meant:
             self._world.note(f'not modelled: "{" ".join(self._chunks[at].words)}" in what is to be done')
@@ -414,9 +415,6 @@ class Doing(Placing):
         phrase = self._chunks[head].phrase
         if self._clause.manner is None and tier_of(self._world, phrase, self._said.ref(head)) is not None:
             return
-        if (
-            phrase is not None
-            and phrase.part in lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
-            and phrase.kind == "object"
-        ):
+        parts = lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
+        if phrase is not None and phrase.part in parts and phrase.kind == "object":
             self._world.note(f'"{phrase.words}": "{phrase.said}" has no parts of its own and is meant.')

@@ -13,6 +13,9 @@ from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words.shapes import grid_rows
 
+_ABREAST = frozenset({"beside", "side_by_side"})
+"""Forms in which the tasks of two things put one beside the other."""
+
 
 class Forming:
     """Arranges the objects of one sentence as a whole."""
@@ -25,6 +28,19 @@ class Forming:
         self._said = References(world, chunks, maker, self._relating)
         self._landmarks: dict[int, tuple[list[Item], bool]] = {}
         """What the sentence has said a side of, by the relation that says it."""
+        self._abreast: list[Item] = []
+        """What is to be put next to each other."""
+
+    def _stand_abreast(self, at: int, heads: Sequence[int]) -> bool:
+        """Whether chunk `at` says that what `heads` mean is to be put next to each other, which is kept.
+
+        "Move the toys to the couch with the cushions. Place them next to each other" is of what was moved.
+        """
+        told = self._said.refs_of(heads) if self._chunks[at].text in _ABREAST else []
+        moved = {item for step in self._world.steps for item in step.items}
+        pronoun = any(self._chunks[head].named.kind == "pronoun" for head in heads)
+        self._abreast = told if not (pronoun and moved) or moved & {*told} else []
+        return len(self._abreast) > 1
 
     def _formed(self, at: int, heads: Sequence[int]) -> None:
         chunk = self._chunks[at]

@@ -1,8 +1,9 @@
-"""What something has, in one reading: "a desk with a lamp", "each plate holds an apple"."""
+"""What something has, in one reading: "a desk with a lamp", "each plate holds an apple"; what is put side by side."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.meaning.distribution import all_like, for_each, hand_out, share
@@ -29,6 +30,12 @@ class Holding(Doing):
         super().__init__(world, chunks, maker, clause)
         self._sides: dict[int, str] = {}
         """On which side of what they flank things are, by chunk."""
+
+    def _put_abreast(self) -> bool:
+        """Put each of what is to stand next to each other next to the one before it; whether there are such."""
+        for left, right in pairwise(self._abreast):
+            self._step([right], Link(kind="next_to"), [left])
+        return len(self._abreast) > 1
 
     def _had(self, at: int, owner_heads: Sequence[int], child_heads: Sequence[int]) -> None:
         self._have(self._chunks[at].relation, owner_heads, child_heads, each=bool(self._chunks[at].each))

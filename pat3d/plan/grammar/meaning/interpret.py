@@ -103,7 +103,7 @@ class Interpreter(Holding):
         if self._clause.manner is not None:
             self._note_goal(facts)
             self._with_landmarks(facts)
-        if self._clause.manner is not None and not any(fact[0] == "goal" for fact in facts):
+        if self._clause.manner is not None and not (self._put_abreast() or any(fact[0] == "goal" for fact in facts)):
             self._done(reading.heads)
         told = {at for fact in facts if fact[0] in ("list", "include") for at in fact[3]}
         for at, chunk in enumerate(self._chunks):

@@ -28,6 +28,13 @@ _THINGS_TOO = frozenset({"palette", "light", "window", "curtain", "shed", "barn"
 class References(Members):
     """Resolves the phrases of one sentence."""
 
+    def _put_on_itself(self, at: int, phrase: Phrase, found: Sequence[Item]) -> bool:
+        """Whether chunk `at` would be what is put there: "put the cup on the upside-down cup" is of two cups."""
+        new = self.asked and at - 1 in self.goals and all(item.group not in self.before for item in found)
+        moved = {head for one, other in self.related if at in other for head in one}
+        told = {item for head in moved for item in self.known.get(head, [])}
+        return new and {*found} <= told and all(item.group.words.lower() != phrase.words.lower() for item in found)
+
     def create(self, at: int, phrase: Phrase, *, filling: bool, kind: int | None) -> None:
         """Make, or find, what chunk `at` speaks of."""
         world = self._world
@@ -39,7 +46,8 @@ class References(Members):
             if at in self.bound:
                 # "Tools: a hammer and a saw": the two are the tools.
                 return
-            if (found := self._refer(at, phrase)) is not None:
+            found = self._refer(at, phrase)
+            if found is not None and not self._put_on_itself(at, phrase, found):
                 # "Put all the cups but the blue cup in the box"
                 found = [item for item in found if item not in self.left] or found
                 self.known[at] = self._the_one(self._some_of(found, phrase), phrase)

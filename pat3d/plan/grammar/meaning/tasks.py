@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise, takewhile
 
 from pat3d.plan.drawers import DRAWERS
@@ -48,6 +49,8 @@ _HELD_OVER = re.compile(r"hold\b.*?\b((?:over|above) .*)", re.IGNORECASE)
 """Where a thing is held that stands nowhere then."""
 _HARDLY = 1.0
 """How unlikely it is that something rests on what it is only brought to."""
+_CHOICE = re.compile(r"^(?!.* and ).*\bor\b", re.IGNORECASE)
+"""What leaves a choice of two things, and moves no further ones."""
 _GROWING = ("planter", "flower pot")
 """What something is brought to without being put in it."""
 _KEEPING = ("knife block",)
@@ -90,13 +93,22 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
             # "Get the keys and hang them on the hook"
             begun_by = [step for step in steps if step.manner == "pick" and step.items and step not in wanted]
             notes += [f'not modelled: "{step.said}": no task does that.' for step in begun_by]
-    specs = list(dict.fromkeys(specs))
+    specs = _moved_once(dict.fromkeys(specs))
     if len(specs) < STEPS[0]:
         return (specs[0] if specs else None), notes
     if (chain := chain_of(specs)) is None:
         listed = ", ".join(specs)
         notes.append(f"{SEVERAL} {listed}.")
     return chain, notes
+
+
+def _moved_once(specs: Iterable[str]) -> list[str]:
+    """`specs` without that the fork is put on the tray where it comes next to the cup that was put there before it."""
+    told = [spec.split(":") for spec in specs]
+    put = [(each[1], each[2]) for each in told if each[0] == "place"]
+    beside = [(each[1], each[3]) for each in told if each[0] == "beside" and each[2] == "next_to"]
+    again = {(one, goal) for one, mark in beside for mate, goal in put if mate == mark and (one, goal) in put}
+    return [":".join(each) for each in told if each[0] != "place" or (each[1], each[2]) not in again]
 
 
 def _begins(step: Step, later: Sequence[Step]) -> bool:
@@ -123,6 +135,8 @@ def _unsaid(step: Step, world: World) -> list[str]:
     """What `step` asks beyond its task, and what it leaves open."""
     notes: list[str] = []
     verb = next((word for word in step.said.lower().split()[:2] if word in _FORMING), "")
+    if _chosen(step) != step:
+        notes.append(f'"{step.said}": the first that is named is taken.')
     if step.manner == "pick" and (over := _HELD_OVER.match(step.said)):
         notes.append(f'not modelled: "{over[1]}"')
     if step.manner == "unload" and not any(edge.parent in step.items for edge in world.supports.values()):
@@ -167,7 +181,16 @@ def _otherwise(step: Step, world: World, names: Mapping[Item, str]) -> str:
     return f"not arranged: {moved} on {holder}; the task puts it in it" if on and inside else ""
 
 
+def _chosen(step: Step) -> Step:
+    """`step` with the first of what it leaves a choice of: "pick up the pen or the ruler", "in the pot or pan"."""
+    if not _CHOICE.search(step.said):
+        return step
+    items = step.items[:1] if len(step.goal) < 2 else step.items
+    return replace(step, items=items, goal=step.goal[:1])
+
+
 def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
+    step = _chosen(step)
     if step.manner == "other":
         return _sliding(step, world, names)
     if step.manner == "unload":

@@ -31,6 +31,7 @@ _POLITE = tuple(sorted((tuple(said.split()) for said in (
     "be so kind as to", "please be so kind as to", "would you be so kind as to", "i was wondering if you could",
     "it would be great if you could", "it would be nice if you could", "it would be helpful if you could",
     "i would appreciate it if you could", "i'd appreciate it if you could", "i'd be grateful if you could",
+    "would you be able to", "are you able to", "please assist me by", "assist me by", "help me by", "please help me by",
     "don't forget to", "remember to", "go ahead and", "feel free to", "try to", "you may", "you can", "you could",
     "your job is to", "you are to", "you will", "i'd like to have you", "how to", "show me how to", "tell me how to",
     "what is the best way to", "what's the best way to", "can you show me how to", "how about",
@@ -342,7 +343,8 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
         return [sentence]
     for at in range(verb + 1, len(words) - 3):
         every = next((len(said) for said in _EVERY if tuple(words[at : at + len(said)]) == said), 0)
-        if not every or words[at + every] in ("off", "from"):
+        source = words[at + every] in ("off", "from")
+        if not every or (source and not {"except", "excluding"} & {*words}):
             continue
         # "all the toys but the robot", "everything on the tray but the cup"
         for but in range(at + every, len(words) - 2):
@@ -357,7 +359,8 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             out = but > at + every + 2 and words[at + every : at + every + 2] == ["out", "of"]
             where = [replace(sentence[but], text=word) for word in ("is", "in")] if out else []
             left = [*sentence[but + size : end], *where, *sentence[at + every + 2 : but if out else 0], sentence[-1]]
-            if words[at] == "all" and every == 1:
+            if source or (words[at] == "all" and every == 1):
+                left = [*left[: end - but - size], sentence[-1]]
                 return [left, [*sentence[:but], *sentence[end:]]]
             everything = replace(sentence[at], text="everything", end=sentence[end - 1].end)
             return [left, [*sentence[:at], everything, *sentence[at + every : but], *sentence[end:]]]

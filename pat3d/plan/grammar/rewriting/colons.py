@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.english import plural
+from pat3d.plan.grammar.rewriting.commands import SORTS
 from pat3d.plan.grammar.rewriting.enumerated import items_of, joined, kind_at, start_of
 from pat3d.plan.grammar.rewriting.instructions import asked, known_verb
 from pat3d.plan.grammar.words import lexicon
@@ -36,7 +37,7 @@ _SOURCES = frozenset({"from", "off", "out"})
 def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """`sentence`, where it is an instruction, with what its list names, or with where each thing is to go."""
     colon = next((n for n in range(2, len(sentence) - 2) if sentence[n].text in (":", "-")), 0)
-    comma = next((n for n in range(2, len(sentence) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
+    comma = next((n for n in range(2, len(sentence) - 2) if sentence[n].mark or _placed(sentence, n)), 0)
     goals = sentence[comma].mark and _lists_goals(sentence[:comma], sentence[comma + 1 :], nouns)
     colon = colon or (comma if goals else 0)
     verb = asked(sentence, nouns) if colon else ""
@@ -71,11 +72,16 @@ def with_goals(told: Sequence[list[Token]], nouns: Nouns) -> list[list[Token]]:
 
 def _lists_goals(head: Sequence[Token], told: Sequence[Token], nouns: Nouns) -> bool:
     """Whether `told`, which ends in a stop, says where each thing is to go that `head` tidies."""
-    plain = bool(told) and not any(token.mark or link_at(head, n) for n, token in enumerate(head))
+    plain = bool(told) and not any(token.mark or _placed(head, n) for n, token in enumerate(head))
     bare = plain and told[0].text not in ("a", "an", "there") and not numeral(told[0].text)
     bare = bare and not {"go", "goes"} & {token.text for token in told}
     tidies = bare and asked([*head, told[-1]], nouns) in _TIDYING - _PUTTING
     return tidies and len(goals_of(told[:-1])) > 1 and not asked(told, nouns)
+
+
+def _placed(tokens: Sequence[Token], at: int) -> bool:
+    """Whether a place stands at token `at`; "sort the cups by size" has none."""
+    return link_at(tokens, at) > 0 and not (tokens[at].text == "by" and tokens[at + 1].text in SORTS)
 
 
 def _is_named(item: Sequence[Token], nouns: Nouns) -> bool:
@@ -146,9 +152,13 @@ def _goals(
         thing, goal = part[part[0].text in ("the", "a", "an") : at], part[at:]
         if thing[-1].text in ("one", "ones") and kind:
             ones = True
-            thing = [*thing[:-1], *(replace(thing[-1], text=each.text) for each in kind)]
-        if goal[-1].text == "one" and into:
-            goal = [*goal[:-1], replace(goal[-1], text=next(iter(singulars(into[-1]))))]
+            called = [each.text for each in kind if not numeral(each.text)]
+            if thing[-1].text == "one":
+                called[-1] = next(iter(singulars(called[-1])), called[-1])
+            thing = [*thing[:-1], *(replace(thing[-1], text=word) for word in called)]
+        if goal[-1].text == "one" and (made or into):
+            # "Into the left tray, big ones into the right one"
+            goal = [*goal[:-1], replace(goal[-1], text=made[-1].text if made else next(iter(singulars(into[-1]))))]
         owned = part[0].text in lexicon.DEFINITE | lexicon.POSSESSIVES and part[0].text != "the"
         lead = [] if owned else [replace(part[0], text="the")]
         again = [replace(part[0], text="and")] if made else []

@@ -32,12 +32,14 @@ _THEN = frozenset({"then", "next", "now", "and", "finally", ",", "please", "also
 """What opens the next of several instructions."""
 _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck", "set"})
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
-_SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
+SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
 _HANDING = (["give"], ["hand"], ["pass"])
 _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
 _BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect"})
-_FORMS = frozenset({"tower", "stack", "pile", "column", "row", "line", "circle", "ring"})
+_UNTOLD = frozenset({"pyramid", "wall", "bridge", "arch", "staircase", "house", "castle", "fort"})
+"""What is built in no task."""
+_FORMS = frozenset({"tower", "stack", "pile", "column", "row", "line", "circle", "ring"}) | _UNTOLD
 _MADE_OF = (("of",), ("out", "of"), ("from",), ("with",), ("using",), ("by", "stacking"))
 _THERE = lexicon.DEFINITE | lexicon.POSSESSIVES | {"them", "all", "both"}
 """What speaks of things that are there."""
@@ -174,7 +176,7 @@ def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
 def _built(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "build a tower out of the three cubes" as "stack the three cubes", and a row as "arrange ...".
 
-    "Build a tower of three cubes" makes them up.
+    "Build a tower of three cubes" makes them up, and of "build a pyramid from these six cups" none is built before.
     """
     words = [token.text for token in tokens]
     for at in range(len(words) - 5):
@@ -193,9 +195,10 @@ def _built(tokens: Sequence[Token]) -> Sequence[Token]:
             continue
         end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
         first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
-        piled = words[form] in lexicon.TOWERS
-        deed = replace(tokens[at], text="stack" if piled else "arrange", end=tokens[form].end)
-        how = [] if piled else [replace(tokens[form], text=word) for word in ("in", "a", words[form])]
+        piled, untold = words[form] in lexicon.TOWERS, words[form] in _UNTOLD
+        verb = "assemble" if untold else "stack" if piled else "arrange"
+        deed = replace(tokens[at], text=verb, end=tokens[form].end)
+        how = [] if piled or untold else [replace(tokens[form], text=word) for word in ("in", "a", words[form])]
         return [*tokens[:at], deed, *tokens[things:first], *how, *tokens[first:]]
     return tokens
 
@@ -302,7 +305,7 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
             continue
         sorted_by = "sort" in told and ("into" in [each.text for each in made] or ":" in told)
         if sorted_by and (
-            (token.text == "by" and follower in _SORTS) or (token.text in _SORTS and tokens[at - 1].text == "by")
+            (token.text == "by" and follower in SORTS) or (token.text in SORTS and tokens[at - 1].text == "by")
         ):
             continue
         given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING

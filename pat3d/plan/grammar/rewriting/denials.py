@@ -37,7 +37,7 @@ _BUT = (("except", "for"), ("apart", "from"), ("aside", "from"), ("other", "than
 def without_denials(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what they deny."""
     words = [token.text for token in tokens]
-    for told in (_nor, _no, _lacking, _condition, _cleft, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
+    for told in (_nor, _no, _lacking, _condition, _not_but, _rather, _set_off, _none_behind, _nothing, _none_of,
                  _among, _useless, _all_listed):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, denied = found
@@ -108,16 +108,6 @@ def _condition(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told 
     if not opens or not set(words) & FINITE:
         return None
     return list(tokens[1:]), [(tokens[0], tokens[-2])]
-
-
-def _cleft(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "it is the red box, not the blue one, that has a lid" as "the red box, not the blue one, has a lid"."""
-    opens = words[:2] in (["it", "is"], ["it", "was"], ["it", "'s"])
-    that = next((n for n in range(3, len(words) - 2) if words[n] in ("that", "which", "who")), 0)
-    inside = [n for n in range(2, that) if words[n] == "," and words[n + 1] == "not"]
-    if not (opens and that and inside and words[that - 1] == "," and words[2] in lexicon.DETERMINERS):
-        return None
-    return [*tokens[2 : inside[0]], *tokens[that + 1 :]], [(tokens[inside[0] + 1], tokens[that - 2])]
 
 
 def _not_but(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -261,7 +261,10 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _verb_again(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the jam left of the plate and the mug on it" as "... and put the mug on it"."""
+    """`tokens` with "put the jam left of the plate and the mug on it" as "... and put the mug on it".
+
+    So is "put the ring in the box and the box in the drawer", where the box is to be moved.
+    """
     words = [token.text for token in tokens]
     for at in (n for n, word in enumerate(words) if word in ("put", "place", "set") and (not n or tokens[n - 1].mark)):
         end = next(n for n in range(at, len(words)) if words[n] in (".", ":") or words[n : n + 2] == [",", "then"])
@@ -269,9 +272,12 @@ def _verb_again(tokens: Sequence[Token]) -> list[Token]:
         plain = len(parts) > 1 and all(part[0].text == "the" and len(places_of(part)) == 1 for part in parts)
         start, stop = places_of(parts[0])[0] if plain else (0, 0)
         first = LINKS.get(tuple(each.text for each in parts[0][start:stop])) if plain else None
-        if first is not None and first.kind in LATERAL_KINDS and words[end - 1] not in _SIDE_WORDS:
-            again = [(replace(part[0], text="and"), replace(part[0], text=words[at]), *part) for part in parts]
-            return [*tokens[: at + 1], *[each for part in again for each in part][2:], *tokens[end:]]
+        beside = first is not None and first.kind in LATERAL_KINDS and first.manner != "between"
+        # The box of "in the box and the box in the drawer"
+        again = plain and any(one[-1].text == other[places_of(other)[0][0] - 1].text for one, other in pairwise(parts))
+        if (beside and words[end - 1] not in _SIDE_WORDS) or again:
+            told = [(replace(part[0], text="and"), replace(part[0], text=words[at]), *part) for part in parts]
+            return [*tokens[: at + 1], *[each for part in told for each in part][2:], *tokens[end:]]
     return list(tokens)
 
 

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import base_of, known_verb
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 
 _LETTING = frozenset({"have", "let", "make", "get", "ask", "tell", "command"})
@@ -32,6 +33,9 @@ def told_plainly(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of a prompt without who is to do what is told."""
     left, made, at = list(tokens), list[Token](), 0
     while at < len(left):
+        if end := _with_limb(left, at):
+            at = end
+            continue
         opens = not made or left[at - 1].mark or left[at - 1].text in _LED
         verb = _deed(left, at) if opens else 0
         # "Picks up the pear"
@@ -53,6 +57,26 @@ def _limb(tokens: Sequence[Token], at: int, heads: frozenset[str]) -> int:
     while end < len(tokens) - 2 and tokens[end].text in heads and tokens[end + 1].text in heads:
         end += 1
     return end + 1 if tokens[end].text in heads else 0
+
+
+def _with_limb(tokens: Sequence[Token], at: int) -> int:
+    """The token behind "with your left hand", "using arm B", at token `at` of an instruction; 0 where none acts."""
+    last = len(tokens) - 1
+    end = _limb(tokens, at + 1, _LIMBS) if tokens[at].text in ("with", "using") and at < last else 0
+    if not end or end > last:
+        return 0
+    label = end < last and len(tokens[end].text) == 1 and tokens[end].text.isalnum()
+    label = label and tokens[end - 1].text in _LIMBS and (tokens[end].text != "a" or tokens[end + 1].mark)
+    told = label or {"left", "right", "both", "other"} & {token.text for token in tokens[at:end]}
+    end += label
+    opens = not at or tokens[at - 1].text in ("and", "then", ",", ".")
+    start = next((n + 1 for n in range(at - 1, -1, -1) if tokens[n].text == "."), 0)
+    ends = tokens[end].mark or tokens[end].text in _LED or (link_at(tokens, end) and tokens[end].text != "of")
+    asked = any(known_verb(token.text) for token in tokens[start : min(start + 4, at)])
+    verb = end + (opens and tokens[end].text in (",", "to"))
+    if opens and known_verb(tokens[min(verb, last)].text):
+        return verb if told else 0
+    return end if told and asked and ends else 0
 
 
 def _deed(tokens: Sequence[Token], at: int) -> int:

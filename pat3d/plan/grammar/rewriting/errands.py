@@ -15,10 +15,11 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexing import Token, singulars
-from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove"})
 _UNLOADING = frozenset({"unload", "empty"})
@@ -26,11 +27,15 @@ _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "s
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
                     ("back", "into")})  # fmt: skip
 _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "next", "behind", "near"})
+_HOLDING = frozenset({"in", "on", "inside", "within"})
 _AFTER = tuple(tuple(said.split()) for said in (
     "and then", ", then", ", and then", "and also", ", and also", "then", "as well as",
 ))  # fmt: skip
-_ONE_BY_ONE = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
-               ("one", "after", "the", "other"), ("piece", "by", "piece"))  # fmt: skip
+_NO_PHRASES = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after", "another"),
+               ("one", "after", "the", "other"), ("piece", "by", "piece"),
+               *(("from", its, current, place) for its in ("its", "their") for current in ("current", "present")
+                 for place in ("location", "position", "place", "spot")))  # fmt: skip
+"""What changes nothing of what is to be done, or no task asks for."""
 _REST = frozenset({"rest", "others"})
 FILLING = frozenset({"fill", "load", "stock", "pack"})
 """Verbs of what something is put in or on."""
@@ -46,11 +51,33 @@ _WHERE_IT_IS = tuple(tuple(said.split()) for said in (
 
 def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with what is to be moved, and where to, behind its verb."""
-    made = _filled_with(_filled_from(_belonging(_owed(list(tokens)))))
+    made = _filled_with(_filled_from(_belonging(_owed(without_phrases(tokens, _NO_PHRASES)))))
     if not any(_commands(made, at) for at in range(len(made))):
         return made
-    made = _goals_alike(_where_another_is(made), nouns)
-    return _the_rest(_once_again(_added(_carried(_emptied(put_back(without_phrases(made, _ONE_BY_ONE))))), nouns))
+    made = _goals_alike(_where_another_is(_holder_first(made)), nouns)
+    return _the_rest(_once_again(_added(_carried(_emptied(put_back(made)))), nouns))
+
+
+def _holder_first(tokens: list[Token]) -> list[Token]:
+    """`tokens` with "put the pen between the cup and the jar, on the tray" as "... on the tray, between ..."."""
+    words = [token.text for token in tokens]
+    for at in (n for n in range(len(words)) if words[n] in _PUTTING and _commands(tokens, n)):
+        aside = next((n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n)), at)
+        link = LINKS.get(tuple(words[aside : aside + link_at(tokens, aside)]))
+        between = link is not None and link.manner == "between"
+        if link is None or not (between or link.kind in LATERAL_KINDS):
+            continue
+        mark = aside + link_at(tokens, aside)
+        then = next((n for n in range(mark, len(words)) if words[n] == "and"), mark) if between else mark
+        comma = next((n for n in range(then + 1, len(words) - 1)
+                      if tokens[n].mark or link_at(tokens, n) or words[n] in ("and", "then")), then)  # fmt: skip
+        on = comma + (words[comma] == ",")
+        holds = words[on] in _HOLDING and _leads(tokens, on + 1) and (on > comma or between)
+        end = next((n for n in range(on + 1, len(words)) if tokens[n].mark or words[n] in ("and", "then")), on)
+        if holds and comma > then + 1 and not any(link_at(tokens, n) for n in range(on + 2, end)):
+            stop = replace(tokens[aside], text=",", mark=True)
+            return [*tokens[:aside], *tokens[on:end], stop, *tokens[aside:comma], *tokens[end:]]
+    return tokens
 
 
 def _where_another_is(tokens: list[Token]) -> list[Token]:
@@ -121,11 +148,23 @@ def _commands(tokens: Sequence[Token], at: int) -> bool:
 
 
 def _end(tokens: Sequence[Token], at: int) -> int:
-    """Where the instruction that begins at token `at` ends."""
+    """Where the instruction that begins at token `at` ends: "take the cup, the pen and the jar to the desk" is one."""
+
+    def goes_on(n: int) -> bool:
+        """Whether a deed begins at token `n`."""
+        return base_verb(tokens[n].text) == tokens[n].text or tokens[n].text in _PUTTING | {"then"}
+
+    def lists(n: int) -> bool:
+        """Whether the next of a list stands behind the comma at token `n`, with "and" before its last."""
+        ends = (m for m in range(n + 1, len(tokens)) if tokens[m].mark or link_at(tokens, m) or goes_on(m))
+        stop = next(ends, len(tokens) - 1)
+        last = tokens[stop].text == "," and lists(stop)
+        return tokens[n].text == "," and stop > n + 1 and (
+            last or any(tokens[m].text == "and" for m in range(n + 1, stop)))  # fmt: skip
+
     return next(
         n for n in range(at + 1, len(tokens))
-        if tokens[n].mark or (tokens[n].text in ("and", "then") and (
-            base_verb(tokens[n + 1].text) == tokens[n + 1].text or tokens[n + 1].text in _PUTTING | {"then"}))
+        if (tokens[n].mark and not lists(n)) or (tokens[n].text in ("and", "then") and goes_on(n + 1))
     )  # fmt: skip
 
 

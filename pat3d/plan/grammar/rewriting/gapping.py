@@ -33,7 +33,7 @@ _ARTICLES = frozenset({"a", "an", "some", "the"})
 
 def ungapped(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence with the verb in every clause that leaves it out."""
-    tokens = _another_there(_set_apart(_same_landmark(_apposed(tokens)), nouns), nouns)
+    tokens = _another_there(_set_apart(_same_landmark(tokens), nouns), nouns)
     made: list[Token] = []
     verb: Token | None = None
     copula: Token | None = None
@@ -136,19 +136,6 @@ def _of_the_kind(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, s
     if not alike or FINITE & {*words[link:end]} or not all(map(_describes, words[at + 1 : link - 1])):
         return None
     return (link - at, words[verb]) if link > at + 2 and words[link - 2] != words[verb - 2] else None
-
-
-def _apposed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "another one, a blue one, on the shelf" as "a blue one on the shelf"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        if words[at] != "," or words[at + 1] not in ("a", "an") or words[at + 3] != "one":
-            continue
-        start = at - 1 - (words[at - 1] == "one")
-        if start > 0 and words[start] == "another" and _describes(words[at + 2]):
-            end = at + 4 + (words[at + 4] == ",")
-            return [*tokens[:start], *tokens[at + 1 : at + 4], *tokens[end:]]
-    return list(tokens)
 
 
 def _same_landmark(tokens: Sequence[Token]) -> list[Token]:

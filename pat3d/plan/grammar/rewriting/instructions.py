@@ -12,7 +12,7 @@ from typing import Literal
 
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.rewriting.commands import commanded
-from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens
+from pat3d.plan.grammar.rewriting.deeds import FASTENING, fastens, made_by, runs_on
 from pat3d.plan.grammar.rewriting.errands import errands, left_alone
 from pat3d.plan.grammar.rewriting.fronted import forbidden, in_order
 from pat3d.plan.grammar.rewriting.outcomes import end_state
@@ -131,6 +131,10 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
     def opens(at: int) -> bool:
         return bool(asked(said, nouns, at))
 
+    if by := made_by(tokens):
+        deed = replace(tokens[by + 1], text=base_verb(tokens[by + 1].text) or "")
+        told = [replace(each, then=True) for each in clauses(text, [deed, *tokens[by + 2 :]], nouns)]
+        return [replace(told[0], aside=(text[tokens[0].start : tokens[by - 1].end], *told[0].aside)), *told[1:]]
     comma, named = forbidden(tokens, opens)
     if comma:
         there = [Clause(tokens=(*named, tokens[-1]))] if named else []
@@ -152,6 +156,8 @@ def clauses(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Clause]:
         told = told or (tokens[at].text == "then" and tokens[min(at + 2, len(tokens) - 1)].text in lexicon.DETERMINERS)
         if joint and told and not doubled and (found := _verb_at(tokens, at + 1, nouns, opening=False)) is not None:
             starts.append((at, found))
+        elif verb is not None and runs_on(tokens, at, nouns):
+            starts.append((at + 1, at + 1))
         elif verb is not None and _begins_purpose(tokens, at, nouns):
             starts.append((at, at + 1))
     if not starts:

@@ -36,6 +36,11 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"\S+ than (?:either|both|all)",
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",
     rf"in(?:to)? {_NUMBER} (?:groups|clusters)(?: of {_NUMBER})?(?: each)?",
+    # "the flat dish often used for serving food", "the basket meant for carrying groceries"
+    r"(?:(?:, )?(?:which|that) (?:is|are) |(?<!is )(?<!are )(?<!be ))(?:(?:often|typically|usually|commonly) )?"
+    r"(?:used|designed|meant|intended) (?:for|to|on|when)(?: (?!(?:then|which|in|on|onto|into|inside|within|next|from"
+    r"|is|are|stands?|lies?|sits?|holds?) |and (?:it|place|put|set|deposit|insert|add|shut|close|then|the|a) "
+    r"|[.,:;-] )\S+)+",
     # "press the button twice", "push the box until it reaches the edge", "a sofa facing south-west"
     rf"(?<!than )(?<!and )(?<!as )(?<!or )(?:twice|thrice|(?:{_NUMBER}|{'|'.join(lexicon.VAGUE)}) times)(?! as )",
     r"(?:, )?(?:until|till) (?!then |now )(?:(?![.,:-] )\S+ )*(?![.,:-] )\S+",
@@ -46,6 +51,7 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     rf"in (?:{_DIRECTION} order(?: of (?:{_DIRECTION} )?{_MEASURE})?|order of (?:{_DIRECTION} )?{_MEASURE})",
 ))  # fmt: skip
 """What is said of how something looks, is turned or is done, wherever it stands."""
+_KINDS = frozenset({"appliance", "furniture", "device", "item", "object", "tool", "utensil"})
 _ACCENTS = frozenset({"accents", "accent", "details", "touches", "hues", "tones", "finishes", "decor"})
 
 _OUTLINES = UNPLANNED - PLACES - RINGS - {"pyramid", "grid", "matrix", "staircase", "stairway", "cantilever"}
@@ -160,7 +166,10 @@ def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     said = " ".join(words) + " "
     for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
         at, end = (said.count(" ", 0, place) for place in found.span())
-        if at and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end)):
+        ends = end < len(tokens) and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end))
+        # "The appliance used for heating food": which one is told by it.
+        told = words[at - 1] in _KINDS and "for" in words[at + 1 : at + 4]
+        if at and ends and not told:
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None
 

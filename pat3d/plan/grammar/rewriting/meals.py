@@ -8,15 +8,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.generics import MEALS
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_modifier, looks_like_adjective
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier, looks_like_adjective
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _KINDS = {name.split()[1]: name for name in MEALS}
+_UNNAMED = frozenset({"holder", "stand", "machine"})
+"""Words of which an instruction does not say the kind, which is assumed then; a description has to say it."""
 _NO_THING = frozenset({"for", "after", "before", "during", "at", "until", "than", "as", "ready", "to", "every"})
 """Words before a meal that is a time, or one that was told of before."""
 _OF = tuple(tuple(said.split()) for said in (
@@ -38,6 +41,13 @@ def served(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         first = _adjectives_before(made)
         lead = made[first - 1].text if first else ""
         deed = any(token.text in _MAKING for token in made[first:])
+        alone = words[at] in _UNNAMED and words.count(words[at]) == 1 and not nouns.match(words[at - 1 : at + 1])
+        alone = alone and all(is_colour_word(token.text) for token in made[first:])
+        if alone and lead == "the" and known_verb(words[0]) and not nouns.match(words[at : at + 2]):
+            # "Put the bottle on the stand"
+            made.append(replace(tokens[at], text=f"unnamed {words[at]}"))
+            at += 1
+            continue
         if words[at] not in _KINDS or words[at] in words[:at] or deed or not _is_thing(tokens, at, lead, nouns):
             made.append(tokens[at])
             at += 1
@@ -48,6 +58,10 @@ def served(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             del made[article:]
             at += 1 + size
             continue
+        # "All of the groceries"
+        article -= next(
+            (n for n in (2, 1) if [each.text for each in made[article - n : article]] == ["all", "of"][:n]), 0
+        )
         made[article:first] = []
         made.append(replace(tokens[at], text=_KINDS[words[at]]))
         at += 1

@@ -11,6 +11,7 @@ from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
+_STACKING = frozenset({"stack", "put", "place", "move"})
 _GOING_ON = frozenset({",", "and", "or"})
 
 
@@ -34,4 +35,20 @@ def with_their_amount(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if listed and ends and hue and not named_later:
             made.append(replace(tokens[at], text="a"))
         made.append(tokens[at])
+    return made
+
+
+def blocks_of_colours(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` of a prompt without a thing with "stack red on green" as "stack the red block on the green block"."""
+    words = [token.text for token in tokens]
+    hues = [at for at in range(1, len(words) - 1) if is_colour_word(words[at]) and not nouns.match([words[at]]) and (
+        tokens[at + 1].mark or link_at(tokens, at + 1) or words[at + 1] in ("and", "then"))]  # fmt: skip
+    others = [word for at, word in enumerate(words) if at not in hues and nouns.match([word])]
+    on = any(link_at(tokens, at + 1) for at in hues)
+    if words[0] not in _STACKING or len(hues) < 2 or others or not on:
+        return list(tokens)
+    made: list[Token] = []
+    for at, token in enumerate(tokens):
+        bare = at in hues and words[at - 1] not in lexicon.DETERMINERS
+        made += [replace(token, text="the")] * bare + [token] + [replace(token, text="block")] * (at in hues)
     return made

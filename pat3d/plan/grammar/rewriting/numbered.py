@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.english import NUMBERED, NUMBERED_BARE
+from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -16,6 +17,25 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 LABELLED = frozenset({"labelled", "labeled", "marked", "lettered", "numbered", "named", "called"})
 _MOVING = frozenset({"move", "slide", "push", "take", "place", "put", "stack", "lift", "grab", "pick", "up", "and"})
 _FORMS = frozenset({"structure", "formation", "wall", "square", "space", "spaces", "high", "wide", "long", "tall"})
+
+
+def steps(text: str, tokens: Sequence[Token], _: Nouns) -> list[Token]:
+    """`tokens` of the prompt `text` with "1- take the pen 2- put it in the cup" as sentences without numbers."""
+    made: list[Token] = []
+    number = 0
+    for at, token in enumerate(tokens):
+        marked = token.mark and at > 0 and tokens[at - 1].text == str(number) and token.text == "."
+        if marked and text[tokens[at - 1].end - 1 : token.end] == f"{number}.":
+            continue
+        behind = at + 1 + (tokens[min(at + 1, len(tokens) - 1)].text == ".")
+        verb = tokens[min(behind, len(tokens) - 1)].text
+        begins = token.text in (str(number + 1), "2"[number:]) and text[token.end : token.end + 1] in ("-", ".", ")")
+        if begins and (known_verb(verb) or verb == "done"):
+            number = int(token.text)
+            made += [replace(token, text=".", mark=True)] if made and not made[-1].mark else []
+        elif not (number and token.text == "done" and at + 1 < len(tokens) and tokens[at + 1].mark and made[-1].mark):
+            made.append(token)
+    return made
 
 
 def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -12,8 +12,9 @@ from pat3d.plan.grammar.rewriting.compounds import compounds
 from pat3d.plan.grammar.rewriting.drinks import of_drinks
 from pat3d.plan.grammar.rewriting.meals import served
 from pat3d.plan.grammar.rewriting.members_set_off import members_set_off
+from pat3d.plan.grammar.rewriting.named_like_colours import blocks_of_colours
 from pat3d.plan.grammar.rewriting.note_items import each_at_its_place
-from pat3d.plan.grammar.rewriting.numbered import ordinals
+from pat3d.plan.grammar.rewriting.numbered import ordinals, steps
 from pat3d.plan.grammar.rewriting.one_of_the_counted import of_the_counted
 from pat3d.plan.grammar.rewriting.restated import chessmen
 from pat3d.plan.grammar.rewriting.row_ends import at_row_ends
@@ -40,10 +41,10 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     things is meant is told last.
     """
     rewritings: tuple[Rewriting, ...] = (
-        without_names_of_verbs, partial(ordinals, text), compounds, members_set_off,
-        partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot, of_the_counted,
-        told_behind, of_drinks, known_again, in_full, served, worked_out, subkinds, by_side, by_size, of_the_carried,
-        by_rank, at_row_ends, of_unlike_rows, levels_of,
+        without_names_of_verbs, partial(steps, text), partial(ordinals, text), compounds, blocks_of_colours,
+        members_set_off, partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot,
+        of_the_counted, told_behind, of_drinks, known_again, in_full, served, worked_out, subkinds, by_side, by_size,
+        of_the_carried, by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:

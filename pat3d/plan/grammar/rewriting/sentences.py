@@ -11,6 +11,7 @@ from pat3d.plan.grammar.rewriting.beforehand import ones_named, told_before
 from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each, with_goals
 from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
+from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
 from pat3d.plan.grammar.rewriting.wanted_states import brought_about
@@ -189,7 +190,7 @@ def _labelled(told: list[list[Token]]) -> list[list[Token]]:
 
 
 def _conditions(told: list[list[Token]]) -> list[list[Token]]:
-    """`told` with "once the box is open, drop the pen in it" as two sentences."""
+    """`told` with "once the box is open, drop the pen in it" as two sentences; the comma may be left out."""
     made: list[list[Token]] = []
     for sentence in told:
         words = [token.text for token in sentence]
@@ -197,8 +198,13 @@ def _conditions(told: list[list[Token]]) -> list[list[Token]]:
         after = comma + 1 + (words[comma + 1 : comma + 2] in (["then"], ["please"]))
         asked = comma > 3 and base_verb(words[after]) == words[after]
         opens = words[0] in CONDITIONS and (words[1] in lexicon.DETERMINERS or words[1] == "there")
+        verbs = (n for n in range(4, len(words) - 2)
+                 if known_verb(words[n]) and words[n + 1] in lexicon.DEFINITE | {"it", "them"}
+                 and FINITE & {*words[1:n]} and words[n - 1] not in lexicon.MODALS | {"to"})  # fmt: skip
         if opens and asked and set(words[1:comma]) & FINITE:
             made += [[*sentence[:comma], replace(sentence[comma], text=".")], list(sentence[after:])]
+        elif opens and (verb := next(verbs, 0)) and not any(token.mark for token in sentence[:verb]):
+            made += [[*sentence[:verb], sentence[-1]], list(sentence[verb:])]
         else:
             made.append(sentence)
     return made

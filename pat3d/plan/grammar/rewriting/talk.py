@@ -93,13 +93,14 @@ def spoken_before(sentence: list[Token]) -> list[list[Token]]:
     leads = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.PRONOUNS | lexicon.VIEWERS
     asks = after + 2 * (words[after : after + 2] in (["could", "you"], ["can", "you"], ["would", "you"]))
     asks += words[min(asks, len(words) - 1)] == "please"
-    asked = comma > 1 and asks < len(words) - 2 and known_verb(words[asks]) and words[asks + 1] in leads
+    named = asks + 1 + (words[min(asks + 1, len(words) - 1)] in ("away", "up", "down"))
+    asked = comma > 1 and named < len(words) - 1 and known_verb(words[asks]) and words[named] in leads
     if not asked:
         return [sentence]
     speaks = words[0] in _SPEAKERS | {"my", "our", "it's"} and "to" not in words[:comma]
     verb = next((n for n in range(2, comma) if words[n] in ("is", "are", "was", "were")), 0)
     plain = not any(link_at(sentence, n) for n in range(comma))
-    tells = words[0] == "the" and verb and comma - verb in (2, 3) and plain
+    tells = words[0] in ("the", "this") and verb and comma - verb in (2, 3) and plain
     if not (speaks or tells):
         return [sentence]
     return [[*sentence[:comma], replace(sentence[-1])], list(sentence[after:])]

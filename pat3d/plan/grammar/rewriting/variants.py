@@ -121,7 +121,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_alike(_alternating(_hued(_begun(tokens))), nouns))
+    usual = _plain(_alike(_hued(_begun(tokens)), nouns))
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
@@ -182,29 +182,6 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         made.append(tokens[at])
         at += 1
     return made
-
-
-def _alternating(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "four cups in a row, alternating red and blue" as "..., red, blue, red and blue"."""
-    words = [token.text for token in tokens]
-    at = next((n for n in range(4, len(words) - 3) if words[n] in _BY_TURNS), 0)
-    if not at:
-        return tokens
-    number = lexicon.NUMBERS.get(words[0], int(words[0]) if words[0].isdecimal() and len(words[0]) < 3 else 0)
-    one = at + 1 + (words[at + 1] == "between")
-    colours = [tokens[one], tokens[min(one + 2, len(words) - 1)]]
-    plain = is_colour_word(colours[0].text) and is_colour_word(colours[1].text) and words[one + 1] == "and"
-    counted = any(word in lexicon.NUMBERS or word.isdecimal() for word in words[1:at] if word not in ("a", "one"))
-    lined = {"row", "line"} & set(words[:at]) and not counted
-    if not (plain and lined and 2 < number <= _IN_TURN and len(words) == one + 4):
-        return tokens
-    comma = replace(tokens[at], text=",", mark=True)
-    made = [*tokens[:at], *([] if words[at - 1] == "," else [comma])]
-    for n in range(number):
-        last = n == number - 1
-        made += [] if n == 0 else [replace(tokens[one + 1], text="and")] if last else [comma]
-        made.append(colours[n % 2])
-    return [*made, tokens[-1]]
 
 
 def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:

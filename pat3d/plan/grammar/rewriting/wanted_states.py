@@ -45,6 +45,7 @@ _GOALS = tuple((whose, what, "is", "to", verb) for whose in ("the", "your", "our
                for what in ("goal", "aim", "task", "objective") for verb in ("have", "get"))  # fmt: skip
 _WISHES = (*_GOALS, *(tuple(said.split()) for said in (
     "i want", "we want", "i need", "we need", "i'd like", "i would like", "we'd like", "we would like",
+    "i want to have", "i'd like to have", "i would like to have", "i want you to have",
 )))  # fmt: skip
 _FIRST = frozenset({"only", "just", "first", "second", "lastly"})
 _DUTY = frozenset({"should", "must", "shall", "ought", "needs", "need"})
@@ -56,7 +57,8 @@ _OUGHT = tuple(tuple(said.split()) for said in (
 _BEING = frozenset({"is", "are", "be", "lies", "lie", "stands", "stand", "sits", "sit", "rests", "rest"})
 _ENDING_UP = (("end", "up"), ("ends", "up"))
 _STATES = [[word] for word in (*_BEING, "end")]
-_VERBS = _BEING | lexicon.MODALS | {"ends", "end", "has", "have", "needs", "need", "ought"}
+_CONTAINING = frozenset({"contains", "contain", "holds", "hold"})
+_VERBS = _BEING | _CONTAINING | lexicon.MODALS | {"ends", "end", "has", "have", "needs", "need", "ought"}
 _PLACES = frozenset({"left", "right", "front", "back", "middle", "center", "centre", "corner", "edge", "side", "end"})
 """Places on what carries a thing."""
 SWITCHED = {"open": "open", "closed": "close", "shut": "shut"}
@@ -73,7 +75,8 @@ def brought_about(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
     describes = _makes_up(told)
     sure = _told_sure if describes else _made_sure
     made: list[list[Token]] = []
-    wanted = all(known_verb(each[0].text) or _wants(each, nouns) for each in told)
+    asked = any(known_verb(each[0].text) for each in told)
+    wanted = all(known_verb(each[0].text) or _wants(each, nouns) or (asked and _goes(each)) for each in told)
     for sentence in told:
         before = {token.text for each in made for token in each}
         if stays := _left_there(sentence, told):
@@ -119,6 +122,12 @@ def _wants(tokens: list[Token], nouns: Nouns) -> bool:
     stands = not any(token.text in SWITCHED for token in wished[-2:])
     furniture = stands and found is not None and nouns.of_class(found.noun, lexicon.FLOOR)
     return bool(verb) and not furniture and (wished != tokens or _ought(tokens))
+
+
+def _goes(tokens: Sequence[Token]) -> bool:
+    """Whether `tokens` tell where something "goes", which behind an instruction is where it is to be put."""
+    goes = next((at for at, token in enumerate(tokens) if token.text in _GOES), 0)
+    return goes > 1 and tokens[0].text in _LEADS and link_at(tokens, goes + 1) > 0
 
 
 def _later(tokens: list[Token]) -> list[Token]:
@@ -193,7 +202,7 @@ def _moved(tokens: list[Token], before: Collection[str], *, wanted: bool) -> lis
 def _wished(tokens: list[Token]) -> list[Token]:
     """Read "I want the pen to be in the mug", "I'd like the pen in the mug" as "the pen is to be in the mug"."""
     words = [token.text for token in tokens]
-    size = next((len(said) for said in _WISHES if tuple(words[: len(said)]) == said), 0)
+    size = max((len(said) for said in _WISHES if tuple(words[: len(said)]) == said), default=0)
     if not size or words[size] not in _LEADS:
         return tokens
     made: list[Token] = []
@@ -217,7 +226,8 @@ def _made_sure(tokens: list[Token]) -> list[Token]:
     """Read "make sure the lemon is in the bowl, then ..." as "put the lemon in the bowl, then ..."."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 4):
-        opens = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
+        # "Could you make sure"
+        opens = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "you")
         size = next((len(said) for said in _SURE if tuple(words[at : at + len(said)]) == said), 0) if opens else 0
         last = _LAST.search(_said(tokens[:-1])) if size else None
         # "See to it that the pen is in the mug in the end"
@@ -292,6 +302,9 @@ def _deed(tokens: Sequence[Token], first: Token) -> list[Token]:
     end += 2 if tuple(words[end : end + 2]) in _ENDING_UP else 1
     rest = list(tokens[end:])
     done = _verb(rest) if rest and (words[end - 1] == "up" or words[end - 1] in _BEING) else None
+    if words[at] in _CONTAINING and rest and end == at + 1:
+        # "The basket contains the can": the can is put in it.
+        return [replace(first, text="put"), *rest, replace(tokens[at], text="in"), *tokens[:at]]
     if done is None:
         return []
     verb, size = done

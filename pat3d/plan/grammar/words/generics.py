@@ -62,6 +62,7 @@ GENERICS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("storage unit", "storage furniture"), ("cabinet", "bookshelf", "dresser")),
     **dict.fromkeys(("beverage", "soft drink"), ("soda can", "juice bottle", "bottle")),
     **dict.fromkeys(("musical instrument", "instrument"), ("guitar", "drum")),
+    "unnamed holder": ("pen holder",), "unnamed stand": ("cake stand",), "unnamed machine": ("coffee machine",),
     "seafood": ("fish",), "produce": ("apple", "carrot", "tomato"), "kitchenware": ("pot", "bowl", "spatula"),
     **dict.fromkeys(("jewelry", "jewellery"), ("ring", "watch")),
     **MEALS,

@@ -7,7 +7,7 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pat3d.plan.english import MISSPELLED
+from pat3d.plan.english import MISSPELLED, set_apart
 from pat3d.plan.grammar.words import measures, postures
 
 _TOKEN = re.compile(
@@ -67,7 +67,7 @@ class Token:
 
 def normalise(prompt: str) -> str:
     """`prompt` with one kind of quote, one kind of blank, decimal fractions and compatibility characters resolved."""
-    prompt = re.sub(r"(\d{0,6})([\u00bc-\u00be\u2150-\u215e])", _decimal, prompt)
+    prompt = re.sub(r"(\d{0,6})([\u00bc-\u00be\u2150-\u215e])", _decimal, set_apart(prompt))
     # "Arts & Crafts" is one name; a title has no word that begins small.
     prompt = re.sub(r"(?<=[a-z] )([A-Z][a-z]+) & ([A-Z][a-z]+)\b", r"\1-and-\2", prompt)
     prompt = re.sub(r"\bw/(o?)(?=\s)", lambda found: "without" if found[1] else "with", prompt)
