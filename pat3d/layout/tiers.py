@@ -47,4 +47,7 @@ def tier_holds(kind: str, body: Placed, carrier: Placed) -> tuple[bool, str]:
     if not len(below):
         return False, "below every tier" if len(heights) else "there are no tiers"
     own = tiers(asset)[int(below[-1])]
-    return own in meant(kind, asset), f"on tier {int(below[-1]) + 1} of {len(heights)} from below"
+    middle = carrier.rotation.T @ (body.centre_of_mass - carrier.position)
+    beside = bool(np.any(np.abs(middle[:2] - own.floor[:2]) > own.half_size))
+    told = f"on tier {int(below[-1]) + 1} of {len(heights)} from below"
+    return own in meant(kind, asset) and not beside, told + (", but beside it" if beside else "")

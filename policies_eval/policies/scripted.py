@@ -24,6 +24,7 @@ from pat3d.policies_eval.policies.drawers import move_drawer
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.pushing import Pusher
 from pat3d.policies_eval.policies.two_hands import TWO_HANDED, TwoHands
+from pat3d.scene.task_spec import steps_of
 
 Array = NDArray[np.float64]
 
@@ -86,6 +87,12 @@ class ScriptedPolicy:
         env = episode.env
         if env is None or env.control != "osc":
             raise EnvironmentSetupError('the scripted policy needs control="osc" and the environment itself.')
+        for kind, *names in steps_of(episode.task):
+            room = env.scene[names[-1]].asset.region("in") if kind == "place" else None
+            if room is not None and room.enclosed:
+                raise EnvironmentSetupError(
+                    f'the scripted policy puts things down from above, and "{names[-1]}" is open in front alone.'
+                )
         self._other: TwoHands | Pusher | None = None
         """What does a task that is no sequence of moves."""
         if env.task.kind in TWO_HANDED:

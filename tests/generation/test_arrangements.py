@@ -46,6 +46,7 @@ def spec(made: str, relations: str = "", arrangements: str = "") -> str:
     return text + (f"arrangements:\n{arrangements}" if arrangements else "")
 
 
+ON_TIERS = {"top": "vase", "second": "radio", "third": "box", "bottom": "globe", "middle": "mug"}
 SCENES = {
     "between, far": spec(
         TABLE + objects("mug:mug", "can:can", "book:book", "apple:apple"),
@@ -66,6 +67,17 @@ SCENES = {
         TABLE + objects("a:mug", "b:can", "c:apple"),
         on("a", "b", "c"),
         "  - {kind: row, objects: [a, b, c]}\n  - {kind: at_edge, objects: [a, b, c], of: [table]}\n",
+    ),
+    "tiers of a bookcase": spec(
+        objects("case:bookshelf", "vase:vase", "radio:radio", "box:box", "globe:globe", "mug:mug"),
+        on("vase", "radio", "box", "globe", "mug", carrier="case"),
+        "".join(f"  - {{kind: on_{tier}_tier, objects: [{name}], of: [case]}}\n" for tier, name in ON_TIERS.items()),
+    ),
+    "tiers of a fridge": spec(
+        objects("fridge:open fridge", "milk:milk", "a:apple", "b:apple"),
+        "".join(f"  - {{child: {name}, kind: in, parent: fridge}}\n" for name in ("milk", "a", "b")),
+        "  - {kind: on_top_tier, objects: [milk], of: [fridge]}\n"
+        "  - {kind: on_bottom_tier, objects: [a, b], of: [fridge]}\n",
     ),
     "circle": spec(
         TABLE + objects("a:mug", "b:can", "c:mug", "pot:pot"),
