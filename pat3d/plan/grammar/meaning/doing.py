@@ -16,7 +16,7 @@ from pat3d.plan.grammar.meaning.entities import Item, Step
 from pat3d.plan.grammar.meaning.objects import Maker, multiply
 from pat3d.plan.grammar.meaning.placing import Placing
 from pat3d.plan.grammar.meaning.same_colour import by_colour
-from pat3d.plan.grammar.meaning.tiers import is_tier, put_on_tier, tier_of
+from pat3d.plan.grammar.meaning.tiers import put_on_tier, tier_of
 from pat3d.plan.grammar.meaning.undone import turn_as_found, unstacks
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import SHUTTING, Clause
@@ -398,18 +398,9 @@ class Doing(Placing):
 
     def _on_tier(self, children: list[Item], head: int, owners: list[Item]) -> bool:
         """Whether chunk `head` speaks of a tier of `owners`, on which `children` are put then."""
-        world, phrase = self._world, self._chunks[head].phrase
-        kind = tier_of(world, phrase, owners)
-        inside = is_tier(phrase) and len(owners) == 1 and world.houses(owners[0])
-        children = [child for child in children if child not in owners]
-        if phrase is None or not children or not (kind or inside):
-            return False
-        self._relating.relate(children, Link(kind="in" if inside else "on"), owners)
-        if kind is None:
-            return True
-        put_on_tier(world, kind, children, owners[0], phrase)
-        self._on_tiers.add(head)
-        return True
+        put = put_on_tier(self._relating, self._chunks[head].phrase, children, owners)
+        self._on_tiers |= {head} if put == "told" else set()
+        return bool(put)
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase

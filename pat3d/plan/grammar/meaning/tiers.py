@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.entities import Group, Item
+from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import singulars
+from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.holders import TIER_PARTS
 from pat3d.scene.arrangements import TIERS, ArrangementKind
 
@@ -42,12 +45,23 @@ def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> Arra
     return kind if (boards[1:-1] if first is None else boards[first:last]) else None
 
 
-def put_on_tier(world: World, kind: ArrangementKind, children: Sequence[Item], owner: Item, phrase: Phrase) -> None:
-    """Record that `children`, which `owner` carries, are on one of its tiers."""
+def put_on_tier(
+    relating: Relating, phrase: Phrase | None, children: Sequence[Item], owners: list[Item]
+) -> Literal["", "somewhere", "told"]:
+    """Put `children` on the tier of `owners` that `phrase` speaks of; or somewhere in what has no such, or nowhere."""
+    world, kind = relating.world, tier_of(relating.world, phrase, owners)
+    inside = is_tier(phrase) and len(owners) == 1 and world.houses(owners[0])
+    children = [child for child in children if child not in owners]
+    if phrase is None or not children or not (kind or inside):
+        return ""
+    relating.relate(children, Link(kind="in" if inside else "on"), owners)
+    if kind is None:
+        return "somewhere"
     if any(word in _COUNTED for word in phrase.words.lower().split()):
         world.note(f'"{phrase.words}": counted from the top.')
-    world.arrange(kind, children, [owner])
-    owner.place = ""
+    world.arrange(kind, children, owners)
+    owners[0].place = ""
+    return "told"
 
 
 def is_tier(phrase: Phrase | None) -> bool:
