@@ -247,7 +247,7 @@ class _Teller(Names):
                 lowest = counted(len(each.objects))
                 made.append(f"{self._all(self._pyramids[each.objects])} are in a pyramid, {lowest} at the bottom")
                 continue
-            shelf = each.kind in TIERS and any(name.rstrip(" 0123456789").endswith("shelf") for name in each.of)
+            shelf = each.kind in TIERS and any(name.rstrip(" 0123456789").split()[-1] == "shelf" for name in each.of)
             # "The top shelf of the shelf" has a board in it.
             said = rule.words.replace("shelf", "board") if shelf else rule.words
             words = f"{said} {self._all(each.of)}" if each.of else rule.alone
