@@ -336,7 +336,7 @@ def test_what_a_glass_is_made_without_is_named(
             "pan, dishwasher",
             "",
             "place:pan:dishwasher",
-            (),
+            ('"the dishwasher" is made open, as what is in it is reached so.',),
         ),
         (
             "Move the shirt to the opened wardrobe.",
@@ -350,7 +350,7 @@ def test_what_a_glass_is_made_without_is_named(
             "pear, fridge",
             "",
             "place:pear:fridge",
-            (),
+            ('"the fridge" is made open, as what is in it is reached so.',),
         ),
         ("Move the cup to the shelf.", "cup, shelf", "", "place:cup:shelf", ()),
     ],

@@ -71,3 +71,32 @@ def test_the_lowest_of_a_stack_on_a_shelf_is_no_level(planner: GrammarPlanner) -
 def test_a_spirit_level_is_a_thing(planner: GrammarPlanner) -> None:
     plan = planner.plan("A wooden level lies on the shelf.")
     assert {obj.noun for obj in plan.objects} == {"spirit level", "shelf"}
+
+
+@pytest.mark.parametrize(
+    ("prompt", "told"),
+    [
+        ("A mug on the top shelf and a book on the bottom shelf.",
+         {("on_top_tier", ("mug",), "shelf"), ("on_bottom_tier", ("book",), "shelf")}),
+        ("The fridge's top shelf holds milk.", {("on_top_tier", ("milk",), "fridge")}),
+        ("Two bowls are on the second shelf of the bookcase.", {("on_second_tier", ("bowl 1", "bowl 2"), "bookcase")}),
+        ("A coffee table with a vase on the lower shelf.", {("on_bottom_tier", ("vase",), "coffee table")}),
+        ("On the top shelf of a bookshelf three books are stacked.", {("on_top_tier", ("book 1",), "bookshelf")}),
+        # There is no middle of two, and no third.
+        ("A bowl on the middle shelf of the cabinet.", set()),
+        ("A vase on the third shelf of the coffee table.", set()),
+        ("A shelf with a cup in one corner and a jar in another.", set()),
+    ],
+)  # fmt: skip
+def test_which_tier_is_told(planner: GrammarPlanner, prompt: str, told: set):
+    plan = planner.plan(prompt)
+    tiers = {(one.kind, one.objects, one.of[0]) for one in plan.arrangements if one.kind.endswith("_tier")}
+    assert tiers == told
+    assert not any("not modelled" in note for note in plan.notes) or not told
+
+
+@pytest.mark.parametrize("count", ["two", "three", "5"])
+def test_a_shelf_is_made_with_the_boards_that_are_counted(planner: GrammarPlanner, count: str):
+    plan = planner.plan(f"A bookcase with {count} shelves.")
+    assert plan.objects[0].adjectives == ({"two": "2-tier", "three": "3-tier", "5": "5-tier"}[count],)
+    assert plan.notes == ()

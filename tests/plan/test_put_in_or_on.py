@@ -44,7 +44,40 @@ def test_what_opens_in_front_is_open_for_what_goes_into_it(said: str, noun: str)
     plan = GrammarPlanner().plan(f"Put the pear into the {said}.")
     assert f"put the pear in the {said} (" in tell(plan)
     assert {obj.name: obj.noun for obj in plan.objects} == {"pear": "pear", said: noun}
-    assert plan.notes == ()
+    assert plan.notes == (f'"the {said}" is made open, as what is in it is reached so.',)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "told"),
+    [
+        ("A sock is in the wardrobe.", {("sock", "in", "wardrobe")}),
+        ("The fridge contains a melon and has a cake on top of it.",
+         {("melon", "in", "fridge"), ("cake", "on", "fridge")}),
+        ("A cabinet with a lamp on it and two cups in it.",
+         {("lamp", "on", "cabinet"), ("cup 1", "in", "cabinet"), ("cup 2", "in", "cabinet")}),
+        ("A pot on the stove and a pie in the oven.", {("pot", "on", "stove"), ("pie", "in", "oven")}),
+        ("Take the pie from the oven.", {("pie", "in", "oven")}),
+        ("A cabinet with a microwave.", {("microwave", "on", "cabinet")}),
+    ],
+)  # fmt: skip
+def test_what_is_in_what_opens_in_front_is_inside_and_what_is_on_it_is_not(sentence: str, told: set):
+    plan = GrammarPlanner().plan(sentence)
+    assert {(rel.child, rel.kind, rel.parent) for rel in plan.relations} == told
+    inside = {parent for _, kind, parent in told if kind == "in"}
+    assert {obj.name for obj in plan.objects if obj.noun.startswith("open ")} == inside
+
+
+def test_a_pan_is_returned_to_the_stove_and_not_into_its_oven():
+    plan = GrammarPlanner().plan("Return the pan to the stove.")
+    assert [obj.noun for obj in plan.objects] == ["pan", "stove"]
+
+
+def test_the_refrigerator_is_the_fridge_and_water_that_is_poured_is_its_bottle():
+    plan = GrammarPlanner().plan("Take the jar from the refrigerator, put it on the table and close the fridge.")
+    assert sum("fridge" in obj.noun for obj in plan.objects) == 1
+    assert [obj.noun for obj in GrammarPlanner().plan("Pour the water from the bottle into the mug.").objects] == [
+        "bottle", "mug",
+    ]  # fmt: skip
 
 
 def test_what_is_to_go_on_a_vessel_goes_into_it():

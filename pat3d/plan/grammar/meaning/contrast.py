@@ -18,6 +18,9 @@ from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE, SUPPORT_KINDS, LateralKind
 
+_ALONE = ("fridge", "microwave", "dishwasher")
+"""What there is one of: "the fridge" is the refrigerator that was named."""
+
 
 class Contrast(Pronouns):
     """Whether phrases of one kind speak of different objects."""
@@ -51,6 +54,7 @@ class Contrast(Pronouns):
             return False
         names = {phrase.said or phrase.head, group.said}
         part = names & (lexicon.STORAGE_PARTS | lexicon.DETACHED | lexicon.DRAWERS) or phrase.part or group.phrase.part
+        part = part or self._world.is_a(group.items[0], _ALONE)
         renamed = not part and len({name.split()[-1] for name in names}) > 1 and group.noun == phrase.noun
         return renamed or bool(looks[0] and looks[1] and not looks[0] & looks[1])
 

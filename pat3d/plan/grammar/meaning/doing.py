@@ -398,13 +398,13 @@ class Doing(Placing):
 
     def _on_tier(self, children: list[Item], head: int, owners: list[Item]) -> bool:
         """Whether chunk `head` speaks of a tier of `owners`, on which `children` are put then."""
-        put = put_on_tier(self._relating, self._chunks[head].phrase, children, owners)
+        put = put_on_tier(self._relating, self._chunks[head], children, owners)
         self._on_tiers |= {head} if put == "told" else set()
         return bool(put)
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if self._clause.manner is None and tier_of(self._world, phrase, self._said.ref(head)) is not None:
+        if self._clause.manner is None and tier_of(self._world, self._chunks[head], self._said.ref(head)) is not None:
             return
         parts = lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
         if phrase is not None and phrase.part in parts and phrase.kind == "object":

@@ -101,6 +101,8 @@ def _open_boxes(world: World, nouns: Nouns) -> None:
             noun = nouns.resolve(opened)
             if noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
                 group.noun = noun
+                if closed in lexicon.HOUSES and world.steps:
+                    world.note(f'"{group.words}" is made open, as what is in it is reached so.')
 
 
 def _widen_bowls(world: World, nouns: Nouns) -> None:
@@ -168,7 +170,9 @@ def _from_its_end(world: World, items: list[Item], kind: LateralKind) -> list[It
 def _side_alone(world: World, told: Sided) -> None:
     """Put what alone is on a side beside what the prompt implies, or note that the side says nothing."""
     kind, name = _KINDS[_ORDER[told.side]], f'"{told.items[0].group.words}"'
-    implied = [item for item in told.implied or _others_there(world, told) if item not in told.items]
+    below = {item for each in world.arranged if each.kind == "under" for item in each.items + each.of}
+    below = below if below & {*told.items} else set()
+    implied = [item for item in told.implied or _others_there(world, told) if item not in {*told.items} | below]
     if implied:
         ends = _from_its_end(world, implied, kind)
         rowed = ends is not implied

@@ -54,6 +54,9 @@ class Relating:
         moved = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in children))
         said = f'{moved} {{}} "{parents[0].group.words}"'
         if set(children) == set(parents):
+            if link.manner == "source":
+                # "Pour the water from the bottle": water is made as its bottle.
+                return
             if link.kind in SUPPORT_KINDS:
                 raise PromptError(f'"{children[0].group.words}" would rest on itself. Say which one is below.')
             if link.kind in OPPOSITE and link.kind != "next_to" and len(children) == 1:
@@ -182,7 +185,11 @@ class Relating:
             self.accompany(children, owners)
         elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
             world.place(owners, "on", children, weak=True)
-        elif weak and world.is_a(owner, lexicon.DEVICES):
+        elif weak and (
+            world.is_a(owner, lexicon.DEVICES)
+            or (world.is_a(owner, ("chair", "armchair", "sofa")) and world.is_a(children[0], ("lamp",)))
+        ):
+            # "A reading chair with a lamp": beside it.
             self.accompany(children, owners)
         elif world.is_a(owner, lexicon.RACKS):
             world.place(children, "in", owners, weak=weak)

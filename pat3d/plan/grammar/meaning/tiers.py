@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal
 
+from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.relating import Relating
@@ -22,15 +23,16 @@ _FEWEST, _MOST = 2, 6
 """Shelves that can be asked for."""
 
 
-def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> ArrangementKind | None:
-    """The tier of the one of `owners` that `phrase` speaks of; None without, or where the thing has no such."""
+def tier_of(world: World, chunk: Chunk, owners: Sequence[Item]) -> ArrangementKind | None:
+    """The tier of the one of `owners` that `chunk` speaks of; None without, or where the thing has no such."""
+    phrase = chunk.phrase
     if phrase is None or len(owners) != 1 or not is_tier(phrase):
         return None
     if not phrase.part and len(owners[0].group.items) > 1:
         # "Two shelves: the top shelf ..." is one of the two.
         return None
     count = _count(world, owners[0].group)
-    words = phrase.words.lower().split()
+    words = chunk.words
     heights = [lexicon.LEVELS[word] for word in words if word in lexicon.LEVELS]
     # "The second shelf" is one of two where nothing that it is a part of is named.
     kind: ArrangementKind | None = next((_COUNTED[word] for word in words if word in _COUNTED and phrase.part), None)
@@ -46,10 +48,11 @@ def tier_of(world: World, phrase: Phrase | None, owners: Sequence[Item]) -> Arra
 
 
 def put_on_tier(
-    relating: Relating, phrase: Phrase | None, children: Sequence[Item], owners: list[Item]
+    relating: Relating, chunk: Chunk, children: Sequence[Item], owners: list[Item]
 ) -> Literal["", "somewhere", "told"]:
-    """Put `children` on the tier of `owners` that `phrase` speaks of; or somewhere in what has no such, or nowhere."""
-    world, kind = relating.world, tier_of(relating.world, phrase, owners)
+    """Put `children` on the tier of `owners` that `chunk` speaks of; or somewhere in what has no such, or nowhere."""
+    world, phrase = relating.world, chunk.phrase
+    kind = tier_of(world, chunk, owners)
     inside = is_tier(phrase) and len(owners) == 1 and world.houses(owners[0])
     children = [child for child in children if child not in owners]
     if phrase is None or not children or not (kind or inside):
@@ -57,10 +60,13 @@ def put_on_tier(
     relating.relate(children, Link(kind="in" if inside else "on"), owners)
     if kind is None:
         return "somewhere"
-    if any(word in _COUNTED for word in phrase.words.lower().split()):
+    if any(word in _COUNTED for word in chunk.words):
         world.note(f'"{phrase.words}": counted from the top.')
-    world.arrange(kind, children, owners)
+    # Of a stack the lowest is on it.
+    world.arrange(kind, world.bases(children), owners)
     owners[0].place = ""
+    said = [f'not modelled: "{word}" of "{phrase.words}"' for word in chunk.words]
+    world.notes = [note for note in world.notes if note not in said]
     return "told"
 
 

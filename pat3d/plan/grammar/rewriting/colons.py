@@ -81,7 +81,8 @@ def _lists_goals(head: Sequence[Token], told: Sequence[Token], nouns: Nouns) -> 
 
 def _placed(tokens: Sequence[Token], at: int) -> bool:
     """Whether a place stands at token `at`; "sort the cups by size" has none."""
-    return link_at(tokens, at) > 0 and not (tokens[at].text == "by" and tokens[at + 1].text in SORTS)
+    behind = "".join(token.text for token in tokens[at + 1 : at + 2])
+    return link_at(tokens, at) > 0 and not (tokens[at].text == "by" and behind in SORTS)
 
 
 def _is_named(item: Sequence[Token], nouns: Nouns) -> bool:
