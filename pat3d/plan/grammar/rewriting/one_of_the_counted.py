@@ -85,6 +85,8 @@ def _more_of_them(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         verb = behind in FINITE and number > 1 and words[at - 1] in _JOINTS | {"."}
         had = behind in ("with", "without") and (_led(words, at) or words[at - 1] == "between")
+        # "A box holds four cans; three are red": of the cans.
+        verb = verb and all((numeral(word) or 0) < number for word in words[start + 1 : at])
         end = _name_end(tokens, start + 1, nouns) if (verb or had) and at > start + 2 else 0
         if end and ((verb and words[end] in FINITE) or had) and plural(words[end - 1]) not in words[:at]:
             made.insert(len(made) - (number == 1), replace(token, text="more" if number > 1 else "another"))
