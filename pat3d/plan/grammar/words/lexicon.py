@@ -185,12 +185,14 @@ FLOOR = ("bed", "bedside table", "bookshelf", "sofa", "coffee table", "table", "
     "bathtub", "stool", "wizard", "futon", "piano", "floor cushion", "kitchen island", "workbench", "sink",
     "dishwasher", "dryer", "ironing board", "conveyor belt", "pallet", "yoga mat", "parasol", "coat stand",
     "towel rail", "toilet", "radiator", "fireplace", "grill", "vacuum cleaner", "robot vacuum", "sawhorse",
-    "umbrella stand", "plant stand", "bicycle")  # fmt: skip
+    "umbrella stand", "plant stand", "bicycle", "open fridge", "open oven", "open dishwasher", "open cabinet",
+    "open wardrobe")  # fmt: skip
 """Things that stand on the floor: a list never puts them on a table, and nothing passes its own support to them."""
 LEVEL = ("table", "desk", "coffee table", "side table", "bedside table", "shelf", "bookshelf", "counter", "cabinet",
     "dresser", "bench", "tray", "cart", "rug", "tv stand", "workbench", "cutting board", "wardrobe", "ottoman", "stool",
     "placemat", "kitchen island", "stove", "washing machine", "ironing board", "conveyor belt", "chessboard", "pallet",
-    "plant stand", "fireplace", "grill", "radiator", "toilet", "blotter", "sawhorse", "file sorter")  # fmt: skip
+    "plant stand", "fireplace", "grill", "radiator", "toilet", "blotter", "sawhorse", "file sorter", "open cabinet",
+    "open wardrobe", "open oven")  # fmt: skip
 SEATS = ("bed", "sofa", "couch", "chair", "armchair", "bench", "pillow", "cushion", "floor cushion", "blanket")
 DISHES = ("plate", "saucer", "platter", "cake stand", "coaster", "soap dish", "tray", "cutting board", "placemat",
           "baking tray", "trivet")  # fmt: skip
@@ -216,7 +218,8 @@ NOT_IN_VESSEL = ("lamp", "table lamp", "desk lamp", "floor lamp", "lantern", "fi
     "television", "computer", "laptop", "printer", "microwave", "guitar", "globe", "aquarium", "radio", "vase",
     "potted plant", "bag", "handbag", "backpack", "suitcase", "briefcase", "toaster", "blender", "keyboard",
     "coffee machine", "stand mixer", "air fryer", "rice cooker", "toaster oven", "microscope", "game console",
-    "telephone", "record player", "dollhouse", "birdcage", "bicycle", "shredder", "soundbar")  # fmt: skip
+    "telephone", "record player", "dollhouse", "birdcage", "bicycle", "shredder", "soundbar", "open microwave",
+    "open toaster oven")  # fmt: skip
 """What a list after a vessel never puts into it: too large, or made to stand by itself."""
 FRUIT = ("fruit", "apple", "orange", "lemon", "lime", "pear", "peach", "plum", "cherry", "strawberry", "watermelon",
     "banana", "pineapple", "grapes", "grape", "mango", "kiwi", "avocado", "pomegranate", "coconut", "fig",
