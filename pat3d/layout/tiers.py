@@ -30,11 +30,7 @@ def tiers(asset: Asset) -> tuple[Region, ...]:
 
 def meant(kind: str, asset: Asset) -> tuple[Region, ...]:
     """The tiers of `asset` that an arrangement of `kind` ("on_top_tier") speaks of; none where it has no such."""
-    found = tiers(asset)
-    first, last = TIERS[kind]
-    if first is None:
-        return found[1:-1]
-    return found[first:last] if -len(found) <= first < len(found) else ()
+    return tiers(asset)[TIERS[kind]]
 
 
 def tier_holds(kind: str, body: Placed, carrier: Placed) -> tuple[bool, str]:

@@ -63,10 +63,9 @@ def spread(
         placed.extend(found)
         astray = next((group for group in overflow if group.name in homes), None)
         if astray is not None:
+            which = top.wishes.tiers[astray.name].split("_")[1]
             before = [group.name for group in (*top.given, *found)]
-            raise no_room(
-                astray, f"the {top.wishes.tiers[astray.name].split('_')[1]} shelf of {top.name}", region, before, None
-            )
+            raise no_room(astray, f"the {which} shelf of {top.name}", region, before, None)
     held = {lat.child for lat in laterals} | {lat.parent for lat in laterals} | top.wishes.names
     if overflow or not all(_carried(top, group, placed) for group in placed):
         piled = None if any(group.name in held for group in groups) else _pile(top, groups, rng)

@@ -25,11 +25,11 @@ PostureKind = Literal["upright", "upside_down", "on_its_side"]
 
 LINES: tuple[ArrangementKind, ...] = ("row", "side_by_side")
 """Kinds in which the objects stand in a line; such lines that cross are a grid."""
-TIERS: dict[str, tuple[int | None, int | None]] = {
-    "on_top_tier": (-1, None), "on_second_tier": (-2, -1), "on_third_tier": (-3, -2), "on_middle_tier": (None, None),
-    "on_bottom_tier": (0, 1),
+TIERS = {
+    "on_top_tier": slice(-1, None), "on_second_tier": slice(-2, -1), "on_third_tier": slice(-3, -2),
+    "on_middle_tier": slice(1, -1), "on_bottom_tier": slice(0, 1),
 }  # fmt: skip
-"""Kinds that tell tiers of a shelf, and the slice of these from below; None for all but the outermost."""
+"""Kinds that tell tiers of a shelf, and which of these, counted from below, they are: none where there are too few."""
 MANY = 100
 
 

@@ -11,11 +11,13 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from pat3d.assets import catalogue
 from pat3d.assets.shapes import box, join
 from pat3d.envs.grasping.grasp import Grasp
 from pat3d.envs.grasping.placement import HOVER
 from pat3d.envs.robots.robot import Gripper
 from pat3d.envs.tasks.moves import ABOVE, DROP_HEIGHT, RELEASE, Move, Planner
+from pat3d.errors import EnvironmentSetupError
 from pat3d.policies_eval.policies import scripted
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.scripted import ScriptedPolicy
@@ -406,3 +408,12 @@ def test_a_leaning_hand_without_a_way_goes_straight_to_where_it_hovers(monkeypat
     rows, over, planned = led(monkeypatch, trace, World(start(-0.3, 0.1), lean=0.5), None)
     assert (over, len(planned)) == ([], 1)
     assert phases(rows)[:3] == ["rise", "hover", "descend"]
+
+
+def test_it_says_that_it_puts_nothing_into_what_is_open_in_front():
+    scene = {"microwave": SimpleNamespace(asset=catalogue.make("open microwave", seed=0))}
+    task = "chain:pick:mug:then:place:mug:microwave"
+    start = EpisodeStart(instruction="", task=task, seed=0, robot="panda", control="osc", action_size=7,
+                         control_freq=20.0, env=SimpleNamespace(control="osc", scene=scene))  # fmt: skip
+    with pytest.raises(EnvironmentSetupError, match='"microwave" is open in front alone'):
+        ScriptedPolicy().reset(start)

@@ -40,11 +40,7 @@ def tier_of(world: World, chunk: Chunk, owners: Sequence[Item]) -> ArrangementKi
         kind = "on_top_tier" if heights[0] else "on_bottom_tier"
     elif _MIDDLE & {*words}:
         kind = "on_middle_tier"
-    if kind is None:
-        return None
-    boards = range(count)
-    first, last = TIERS[kind]
-    return kind if (boards[1:-1] if first is None else boards[first:last]) else None
+    return kind if kind is not None and range(count)[TIERS[kind]] else None
 
 
 def put_on_tier(
