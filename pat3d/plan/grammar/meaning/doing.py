@@ -36,6 +36,8 @@ _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wa
 """What is never made, though things are said to be on it and in it as well as by it."""
 ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
 """Parts to which nothing is related: the whole is taken."""
+_PARTS = ENDS | {"back", "rear", "front", "middle", "center", "centre"}
+"""Parts of a surface that a thing is slid to which is on it already."""
 
 
 class Doing(Placing):
@@ -238,9 +240,13 @@ class Doing(Placing):
             link = Link(kind="hangs_from")
         if link.manner == "half" and link.side != "centre" and parents and self._world.is_a(parents[0], lexicon.LEVEL):
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
-        ends = any(phrase.part in ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
-        along = link.kind == "on" and bool(lexicon.DIRECTIONS & {*self._clause.said.lower().split()})
-        if self._clause.verb in _SLIDING and level and (ends or along or link.says == "across"):
+        parts = [phrase for head in parent_heads if (phrase := self._chunks[head].phrase) is not None and phrase.part]
+        words = {*self._clause.said.lower().split()}
+        ends = any(phrase.part in _PARTS for phrase in parts) or link.manner == "edge" or link.side is not None
+        ends |= self._chunks[at].words[-3:] == ("the", "front", "of")
+        along = "along" in self._chunks[at].words or (link.kind == "on" and bool(lexicon.DIRECTIONS & words))
+        there = self._clause.verb in _SLIDING or (bool(parts) and {"other", "opposite"} & words)
+        if there and level and (ends or along or link.says == "across"):
             # "Slide the plate to the edge of the table", "slide it forward on the table": it is on the table.
             children = [item for item in children if not self._world.on_floor(item)]
             if children and all(self._world.support(item) is None for item in children):
@@ -249,7 +255,8 @@ class Doing(Placing):
         self._from_there(children, parents)
         self._out_of_opened(children, parents)
         taken = self._world.steps[-1] if self._world.steps else None
-        if taken is not None and taken.manner == "pick" and [*taken.items] == children and self._opened() == parents:
+        opened = self._opened() == parents != []
+        if opened and taken is not None and taken.manner == "pick" and [*taken.items] == children:
             # "Open the box, pick up the ring and put it in the box": it was not in there.
             for item in children:
                 self._world.supports.pop(item, None)
@@ -300,7 +307,8 @@ class Doing(Placing):
             bare = not any(self._world.support(item) in children for item in self._world.items())
             children = [item for item in below[:1] if item is not None and bare] or children
         self._out_of_opened(children, [])
-        out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
+        said = self._clause.said.lower()
+        out = self._clause.manner == "pick" and "out" in said.split() and "out from" not in said
         if out and children and all(self._world.support(item) is None for item in children):
             named = f'"{children[0].group.words}"'
             self._world.note(f'not modelled: "{self._clause.said}": what {named} is taken out of is not said with it.')

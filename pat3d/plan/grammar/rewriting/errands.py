@@ -25,7 +25,7 @@ _TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "re
 _UNLOADING = frozenset({"unload", "empty"})
 _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "stack"})
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
-                    ("back", "into")})  # fmt: skip
+                    ("back", "into"), ("to", "the", "front", "of")})  # fmt: skip
 _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "next", "behind", "near"})
 _HOLDING = frozenset({"in", "on", "inside", "within"})
 _AFTER = tuple(tuple(said.split()) for said in (
@@ -180,10 +180,12 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         goals = (n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS)
         goal = next((n for n in goals if n not in inside and _leads(made, n + link_at(made, n))), 0)
         verb, joined = made[at].text, made[goal - 1].text == "and"
-        source = any(made[n].text == "from" for n in range(at, goal))
-        if not goal or (verb == "pick" and not joined) or (verb in _UNLOADING and (verb == "empty" or not source)):
+        sources = {each.text for each in made[at:goal]} & {"from", "off", "out"}
+        if not goal or (verb == "pick" and not joined) or (
+            verb in _UNLOADING and (verb == "empty" or "from" not in sources)
+        ):
             continue
-        made[at] = replace(made[at], text="move")
+        made[at] = replace(made[at], text="drag" if verb == "pull" and not sources else "move")
         drop = ({goal - 1} if joined else set()) | ({at + 1} if made[at + 1].text == "up" else set())
         kept = [token for n, token in enumerate(made) if n not in drop]
         return _carried(kept) if any(_commands(kept, n) for n in range(at + 1, len(kept))) else kept

@@ -11,17 +11,47 @@ from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.links import LINKS
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _SIDES = {"left": ("to", "the", "left", "of"), "right": ("to", "the", "right", "of"), "front": ("in", "front", "of"),
           "back": ("behind",), "rear": ("behind",)}  # fmt: skip
 _OFF = (("off",), ("from",), ("off", "of"), ("out", "of"))
+_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | {"it", "them"}
+_SIDED = frozenset({"side", "end", "corner", "edge"})
+_JOINING = frozenset({"and", "then", ",", "please"})
 _RANKS = frozenset({"top", "bottom"})
 _ENDING = frozenset({"and", "then", "to", "onto", "into"})
 
 
+def from_where(sentence: list[Token]) -> list[Token]:
+    """`sentence` with "get the shoe out from under the bed" as "get the shoe that is under the bed".
+
+    "The opposite side of" is the other one: nothing is opposite something there.
+    """
+    made = list(sentence)
+    for at in range(1, len(made) - 2):
+        if (made[at - 1].text, made[at].text) == ("the", "opposite") and made[at + 1].text in _SIDED:
+            made[at] = replace(made[at], text="other")
+    for at in range(len(made) - 4, 1, -1):
+        place = LINKS.get(tuple(token.text for token in made[at + 1 : at + 1 + link_at(made, at + 1)]))
+        near = place is not None and not place.finite and (place.manner in ("under", "between") or (
+            place.manner == "place" and place.kind in LATERAL_KINDS))  # fmt: skip
+        behind = made[at + 1 + link_at(made, at + 1)].text
+        if made[at].text != "from" or not near or link_at(made, at) > 1 or behind not in _LEADS:
+            continue
+        start = at - (made[at - 1].text in ("out", "up", "off"))
+        pronoun = made[start - 1].text in lexicon.PRONOUNS
+        told = [] if pronoun else [replace(made[start], text="that"), replace(made[at], text="is")]
+        asks = (known_verb(made[n].text) for n in range(start - 1) if not n or made[n - 1].text in _JOINING)
+        made[start : at + 1] = told if any(asks) else made[start : at + 1]
+    return made
+
+
 def from_side(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """Tell "move the cup from the left of the plate to the right of it" as two sentences."""
+    sentence = from_where(sentence)
     words = [token.text for token in sentence]
     verb = int(words[0] == "please")
     first = verb + 1 + (words[min(verb + 1, len(words) - 1)] in ("up", "out"))
