@@ -34,9 +34,7 @@ _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wa
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
     "palette"})  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
-ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
-"""Parts to which nothing is related: the whole is taken."""
-_PARTS = ENDS | {"back", "rear", "front", "middle", "center", "centre"}
+_PARTS = lexicon.ENDS | {"back", "rear", "front", "middle", "center", "centre"}
 """Parts of a surface that a thing is slid to which is on it already."""
 
 

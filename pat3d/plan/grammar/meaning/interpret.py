@@ -11,7 +11,6 @@ from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
 from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
-from pat3d.plan.grammar.meaning.doing import ENDS
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position
@@ -332,7 +331,7 @@ class Interpreter(Holding):
             return
         if link.kind in LATERAL_KINDS or link.manner == "between":
             for place in places:
-                if place is not None and place.part in ENDS:
+                if place is not None and place.part in lexicon.ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         below = self._world.is_table(parents[0]) and not self._world.on_floor(children[0])
         if link.says == "across" and self._chunks[at - 1].text == "facing" and len(children) == 2 and not below:
