@@ -257,7 +257,10 @@ SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)
 )
 """Words that build a sentence, and words for places, which are compared with the plan as claims."""
-_TOLD_OF = "picks lifts places sets grabs takes moves puts grasps reach ask tell keeping choose hoist heave haul guide ease pull"
+_TOLD_OF = """
+    picks lifts places sets grabs takes moves puts grasps reach ask tell keeping choose hoist heave haul guide ease pull
+    repeat likewise afterwards
+"""
 DEEDS = frozenset(f"{_DEEDS} {_TOLD_OF}".split())
 """Words of a task."""
 COMPARING = frozenset({"more", "fewer", "less"})

@@ -23,6 +23,7 @@ _IN_IT = (["in", "it"], ["on", "it"], ["inside", "it"], ["on", "top"])
 _OTHERWISE = frozenset({"from", "of", "out", "off", "that", "which", "and", "or", "then"})
 """Words behind a thing that is had by what is moved, by which it is told where that is or which thing is meant."""
 _SWAPPING = frozenset({"swap", "exchange", "trade", "switch"})
+_TO = frozenset({"with", "into", "onto", "to"})
 _AGAIN = ("do", "the", "same")
 _SLIDING = frozenset({"slide", "push", "move", "shift", "nudge", "drag", "shove", "pull"})
 _TOPS = (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES, lexicon.THIN)
@@ -67,7 +68,7 @@ def _same_with(before: Sequence[Token], sentence: Sequence[Token]) -> list[Token
         return None
     end = next((n for n in range(first + 1, len(before)) if link_at(before, n) or before[n].mark
                 or before[n].text == "and"), 0)  # fmt: skip
-    if not end or words[4] not in _LEADS or any(token.mark for token in sentence[:-1]):
+    if not end or words[4] not in _LEADS or any(token.mark for token in sentence[:-1]) or _TO & {*words[4:]}:
         return None
     several = lexicon.NUMBERS.keys() - {"a", "an", "one"} & {*words} or words[-2] in ("others", "ones", "rest")
     rest = [replace(each, text="them") if several and each.text == "it" else each for each in before[end:]]

@@ -33,7 +33,8 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
     # "insert the pen tip first"
     rf"(?<!the )(?<!its )(?:{'|'.join(sorted(lexicon.PARTS))})(?:[ -](?:side|end))?[ -]first",
-    r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|straight (?:up|down)|(?:at )?random)",
+    r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random"
+    r"|straight (?:up|down))",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
     r"\S+ than (?:either|both|all)",
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",

@@ -12,6 +12,7 @@ from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each, wit
 from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
 from pat3d.plan.grammar.rewriting.instructions import known_verb
+from pat3d.plan.grammar.rewriting.next_deeds import next_deeds
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
 from pat3d.plan.grammar.rewriting.wanted_states import brought_about
@@ -49,7 +50,7 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _set_apart(_contents(_and_no_more(told_plainly(tokens)), nouns))
+    tokens = _set_apart(_contents(_and_no_more(told_plainly(next_deeds(tokens))), nouns))
     cut = with_goals(_cut(tokens, nouns), nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)

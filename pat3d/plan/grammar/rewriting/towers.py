@@ -151,9 +151,7 @@ def _asked_for(words: list[str]) -> bool:
     return len(asked) > 1 and asked[0] in _BUILDING and asked[-1] in _BUILT and not counted
 
 
-def _to_be_stacked(
-    intro: list[Token], parts: Sequence[Sequence[Token]], nouns: Nouns
-) -> list[list[Token]] | None:
+def _to_be_stacked(intro: list[Token], parts: Sequence[Sequence[Token]], nouns: Nouns) -> list[list[Token]] | None:
     """The `parts` of "stack the bowls, red at the bottom and blue on top" as "the red bowl", "the blue bowl"."""
     words = [token.text for token in intro]
     first = 1 + (words[:1] == ["please"])
