@@ -410,7 +410,7 @@ class Doing(Placing):
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if self._clause.manner is None and tier_of(self._world, self._chunks[head], self._said.ref(head)) is not None:
+        if tier_of(self._world, self._chunks[head], self._said.ref(head)) is not None:
             return
         parts = lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
         if phrase is not None and phrase.part in parts and phrase.kind == "object":

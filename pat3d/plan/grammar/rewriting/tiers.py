@@ -98,7 +98,7 @@ def _unnamed(words: Sequence[str], nouns: Nouns) -> tuple[str, ...]:
         (match := nouns.match([word])) is not None and match.noun in _STOREYED for word in words if word != "shelf"
     )
     owned = owned or "shelves" in words
-    return ("shelf",) if len(told & {*lexicon.LEVELS, "middle"}) > 1 and not owned and words[0] not in VERBS else ()
+    return ("shelf",) if len(told & {*lexicon.LEVELS, "middle"}) > 1 and not owned else ()
 
 
 def _on_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
