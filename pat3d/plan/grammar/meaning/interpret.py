@@ -240,6 +240,9 @@ class Interpreter(Holding):
         moved = self._clause.verb in _ROLLING and (link.kind in LATERAL_KINDS or link.manner in ("under", "between"))
         aimed = self._clause.verb == "point" and self._chunks[at].words == ("at",)
         later = link.manner == "goal" or aimed or (moved and at == 1) or self._world.was_taken(children)
+        if self._clause.manner == "other" and link.manner == "edge" and self._chunks[at].words[:1] == ("along",):
+            # "Align the cans along the edge of the shelf": before that they stand anywhere on it.
+            link = Link(kind="on")
         if self._clause.manner in ("other", "unload") and later:
             # "Pour the milk into the glass", "point the camera at the vase": before that it is not so.
             self._said.not_understood((*child_heads, *parent_heads))

@@ -213,7 +213,9 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if goal is None:
         return []
     if not _is_placing(step, world, items, goal):
-        return _beside(step, world, items, goal, names)
+        piled = step.manner == "stack" and len(items) > 1 and _beside(step, world, items[:1], goal, names)
+        # "Stack the cups to the left of the plate"
+        return [*piled, *_tower(items, names)] if piled else _beside(step, world, items, goal, names)
     noun = world.noun(goal)
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"

@@ -168,7 +168,8 @@ def _cleared(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     by = words.index("by") if words[0] in ("clear", "empty") and "by" in words[2:6] else 0
     verb = base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None
-    to = next((n for n in range(by + 3, len(words) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
+    ends = (n for n in range(by + 3, len(words) - 2) if words[n] in (".", ":") or link_at(sentence, n))
+    to = next(ends, 0)
     if verb not in _TAKING or words[1] not in _LEADS or not to or sentence[to].mark:
         return sentence
     put, source = replace(sentence[0], text=verb), replace(sentence[0], text="from")
@@ -361,7 +362,9 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             left = [*sentence[but + size : end], *where, *sentence[at + every + 2 : but if out else 0], sentence[-1]]
             if source or (words[at] == "all" and every == 1):
                 left = [*left[: end - but - size], sentence[-1]]
-                return [left, [*sentence[:but], *sentence[end:]]]
+                # "Put all the fruit in the bowl except the lemon" is quoted whole.
+                last = replace(sentence[but - 1], end=sentence[end - 1].end)
+                return [left, [*sentence[: but - 1], last, *sentence[end:]]]
             everything = replace(sentence[at], text="everything", end=sentence[end - 1].end)
             return [left, [*sentence[:at], everything, *sentence[at + every : but], *sentence[end:]]]
     return [sentence]

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.rewriting.instructions import VERBS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE, LINKS
