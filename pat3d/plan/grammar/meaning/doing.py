@@ -29,6 +29,7 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
+_SIDEWAYS = re.compile(r"\bto the (?:left|right)\b(?! (?:of|side|half|end|edge|corner|hand))")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
@@ -239,12 +240,13 @@ class Doing(Placing):
         if link.manner == "half" and link.side != "centre" and parents and self._world.is_a(parents[0], lexicon.LEVEL):
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
         parts = [phrase for head in parent_heads if (phrase := self._chunks[head].phrase) is not None and phrase.part]
-        words = {*self._clause.said.lower().split()}
+        said, near = self._clause.said.lower(), self._chunks[at].words
+        sided = link.kind == "on" and _SIDEWAYS.search(said) is not None
         ends = any(phrase.part in _PARTS for phrase in parts) or link.manner == "edge" or link.side is not None
-        ends |= self._chunks[at].words[-3:] == ("the", "front", "of")
-        along = "along" in self._chunks[at].words or (link.kind == "on" and bool(lexicon.DIRECTIONS & words))
-        there = self._clause.verb in _SLIDING or (bool(parts) and {"other", "opposite"} & words)
-        if there and level and (ends or along or link.says == "across"):
+        ends = ends or near[-3:] == ("the", "front", "of") or "along" in near or link.says == "across"
+        slid = self._clause.verb in _SLIDING or (self._clause.verb == "move" and sided)
+        slid = slid or (bool(parts) and {"other", "opposite"} & {*said.split()})
+        if slid and level and (ends or sided or (link.kind == "on" and lexicon.DIRECTIONS & {*said.split()})):
             # "Slide the plate to the edge of the table", "slide it forward on the table": it is on the table.
             children = [item for item in children if not self._world.on_floor(item)]
             if children and all(self._world.support(item) is None for item in children):
