@@ -205,7 +205,8 @@ class Doing(Placing):
                     link = Link(kind="hangs_from")
                 if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
                     link = Link(kind="next_to", says="leaning_against")
-                self._relating.relate(children, link, parents)
+                if len(parent_heads) != 1 or not self._on_tier(children, parent_heads[0], parents):
+                    self._relating.relate(children, link, parents)
                 self._world.makes += [*children, *parents]
                 meant = "." if goes_on else '; with "the" before what is moved it is a task.'
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
@@ -243,7 +244,12 @@ class Doing(Placing):
         said, near = self._clause.said.lower(), self._chunks[at].words
         sided = link.kind == "on" and _SIDEWAYS.search(said) is not None
         ends = any(phrase.part in _PARTS for phrase in parts) or link.manner == "edge" or link.side is not None
-        ends = ends or near[-3:] == ("the", "front", "of") or "along" in near or link.says == "across"
+        fore = (
+            near[-3:] == ("the", "front", "of") and self._world.noun(parents[0]) not in lexicon.HOUSES
+            if parents
+            else False
+        )
+        ends = ends or fore or "along" in near or link.says == "across"
         slid = self._clause.verb in _SLIDING or (self._clause.verb == "move" and sided)
         slid = slid or (bool(parts) and {"other", "opposite"} & {*said.split()})
         if slid and level and (ends or sided or (link.kind == "on" and lexicon.DIRECTIONS & {*said.split()})):

@@ -33,7 +33,7 @@ _SIDE_OF = re.compile(r"\b(left|right)(?:-hand| hand)? side of\b", re.IGNORECASE
 _AT_SIDE_OF = re.compile(r"\b(?:on|to|at) the (?:left|right)(?:[- ]hand)?(?: side)? of\b", re.IGNORECASE)
 """What is "on the right side of the plate" is in no half of it."""
 _ASIDE = r"(?:to the )?(?:left of|right of|in front of|behind|next to|beside|near)\b"
-_ASIDE_TWICE = re.compile(rf"\b({_ASIDE} [^,;.]+?),? and (?={_ASIDE})", re.IGNORECASE)
+_ASIDE_TWICE = re.compile(rf"\b(?<!from )({_ASIDE} [^,;.]+?),? and (?={_ASIDE})", re.IGNORECASE)
 """Two places of one thing, of which a task has the second."""
 _THERE_BEFORE = re.compile(
     rf"{_ASIDE} .*?\b(?<!that )(?<!which )(?:ends? up|winds? up|is|are|should|must|has to|have to|goes|go|belongs?)\b",

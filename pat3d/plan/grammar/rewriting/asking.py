@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.rewriting.own_colours import in_one_way
-from pat3d.plan.grammar.rewriting.taken_from import from_side, stack_of
+from pat3d.plan.grammar.rewriting.taken_from import from_where, stack_of
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -68,20 +68,15 @@ def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
         told_before = [token.text for each in made for token in each]
         there = _another(_nothing_there(sentence), told_before, nouns)
         whole = _before_that(_stripped(_that_is(there, told_before)))
-        made += _plainly(_by_the_robot(stack_of(whole)), told_before, nouns)
+        made += _plainly(from_where(_by_the_robot(stack_of(whole)), nouns), told_before)
     return made
 
 
-def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[list[Token]]:
-    """What is asked with `whole`, behind sentences with the words `before`."""
-    made: list[list[Token]] = []
-    for sentence in from_side(whole, nouns):
-        plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_politely(plain))))))))
-        piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
-        for each in _from_stack(plain, piled=piled):
-            made += _all_but(each)
-    return made
+def _plainly(sentence: list[Token], before: Sequence[str]) -> list[list[Token]]:
+    """What is asked with `sentence`, behind sentences with the words `before`."""
+    plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
+    plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_politely(plain))))))))
+    return [one for each in _from_stack(plain, piled=bool(_PILES & {*before})) for one in _all_but(each)]
 
 
 def _by_the_robot(sentence: list[Token]) -> list[Token]:

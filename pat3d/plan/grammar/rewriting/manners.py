@@ -277,11 +277,13 @@ def _such_that(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told 
     """
     at = next((n for n in range(3, len(words) - 3) if words[n] in ("so", "such")
                and (words[n + 1] == "that" or words[n] == "so")), 0)  # fmt: skip
+    if not at:
+        return None
     first = at + 1 + (words[at + 1] == "that")
     its = words[first] in ("its", "their")
     turned = its or (words[first] == "the" and lexicon.PARTS & {words[first + 1], *singulars(words[first + 1])})
     hidden = words[at + 1] == "that" and (words[0] == "stack" or _UNSEEN & {*words})
-    if not at or not (words[at] == "such" or hidden or (turned and base_verb(words[0]) == words[0])):
+    if not (words[at] == "such" or hidden or (turned and base_verb(words[0]) == words[0])):
         return None
     ends = (n for n in range(first, len(words)) if tokens[n].mark or
             (words[n] in ("and", "then") and base_verb(words[n + 1]) == words[n + 1]))  # fmt: skip
