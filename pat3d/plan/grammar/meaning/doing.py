@@ -35,8 +35,7 @@ _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wa
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
     "palette"})  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
-_PARTS = lexicon.ENDS | {"back", "rear", "front", "middle", "center", "centre"}
-"""Parts of a surface that a thing is slid to which is on it already."""
+_PARTS = lexicon.ENDS | {"back", "rear", "front", "middle", "center", "centre"}  # of what a thing is slid along
 
 
 class Doing(Placing):
@@ -243,13 +242,10 @@ class Doing(Placing):
         parts = [phrase for head in parent_heads if (phrase := self._chunks[head].phrase) is not None and phrase.part]
         said, near = self._clause.said.lower(), self._chunks[at].words
         sided = link.kind == "on" and _SIDEWAYS.search(said) is not None
-        ends = any(phrase.part in _PARTS for phrase in parts) or link.manner == "edge" or link.side is not None
-        fore = (
-            near[-3:] == ("the", "front", "of") and self._world.noun(parents[0]) not in lexicon.HOUSES
-            if parents
-            else False
-        )
-        ends = ends or fore or "along" in near or link.says == "across"
+        ends = link.manner == "edge" or link.side is not None or bool(_PARTS & {phrase.part for phrase in parts})
+        ends = ends or "along" in near or link.says == "across"
+        # "Push the plate to the front of the stove" is to before it.
+        ends = ends or (near[-3:] == ("the", "front", "of") and not self._world.houses(parents[0]))
         slid = self._clause.verb in _SLIDING or (self._clause.verb == "move" and sided)
         slid = slid or (bool(parts) and {"other", "opposite"} & {*said.split()})
         if slid and level and (ends or sided or (link.kind == "on" and lexicon.DIRECTIONS & {*said.split()})):

@@ -6,8 +6,9 @@ from collections import Counter
 
 from pat3d.errors import PromptError
 from pat3d.plan.drawers import DRAWERS
-from pat3d.plan.grammar.meaning import apart, arranging, covers, opened, orders, ranks
+from pat3d.plan.grammar.meaning import apart, arranging, covers, orders, ranks
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item, Sided
+from pat3d.plan.grammar.meaning.undone import open_or_shut
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import normalise, singulars, tokenise
@@ -63,7 +64,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             del world.supports[item]
     apart.settle(world)
     covers.settle(world)
-    opened.settle(world, nouns)
+    open_or_shut(world, nouns)
     _widen_bowls(world, nouns)
     ranks.settle(world)
     _pair_sides(world)

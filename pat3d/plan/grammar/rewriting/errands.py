@@ -22,7 +22,6 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
 _TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove", "raise", "hoist", "heave"})
-_UPWARDS = frozenset({"up", "upwards", "high"})
 _UNLOADING = frozenset({"unload", "empty"})
 _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "stack"})
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
@@ -190,7 +189,7 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
             continue
         made[at] = replace(made[at], text="drag" if verb == "pull" and not sources else "move")
         # "Lift the cup up and into the box"
-        up = next(n for n in range(goal - 1 - joined, at, -1) if made[n].text not in _UPWARDS)
+        up = next(n for n in range(goal - 1 - joined, at, -1) if made[n].text != "up")
         drop = {*range(up + 1, goal)} | ({at + 1} if made[at + 1].text == "up" else set())
         kept = [token for n, token in enumerate(made) if n not in drop]
         return _carried(kept) if any(_commands(kept, n) for n in range(at + 1, len(kept))) else kept

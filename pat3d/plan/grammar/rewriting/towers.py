@@ -22,18 +22,11 @@ _UPWARDS = (("from", "bottom", "to", "top"), ("from", "the", "bottom", "to", "th
 _DOWNWARDS = (("from", "top", "to", "bottom"), ("from", "the", "top", "to", "the", "bottom"), ("top", "to", "bottom"),
               ("from", "the", "top", "down"), ("from", "top", "down"))  # fmt: skip
 _LEVELS: dict[tuple[str, ...], int] = {
-    **dict.fromkeys(
-        [("at", "the", "bottom"), ("on", "the", "bottom"), ("at", "its", "base"), ("at", "the", "base")], 0
-    ),
+    **dict.fromkeys([("at", "the", "bottom"), ("on", "the", "bottom"), ("on", "bottom"), ("at", "bottom"),
+                     ("at", "its", "base"), ("at", "the", "base")], 0),
     **dict.fromkeys([("in", "the", "middle"), ("in", "between"), ("in", "the", "centre"), ("in", "the", "center")], 50),
-    **dict.fromkeys([("at", "the", "top"), ("on", "top"), ("on", "the", "top")], 100),
-}
-_BELOW_ABOVE: dict[tuple[str, ...], int] = {
-    **dict.fromkeys([("on", "bottom"), ("at", "bottom"), ("below",), ("underneath",), ("lowest",)], 0),
-    **dict.fromkeys([("in", "middle"), ("in", "the", "middle", "of", "them")], 50),
-    **dict.fromkeys([("at", "top"), ("above",), ("highest",)], 100),
-}
-"""Levels where it is said that things are to be stacked."""
+    **dict.fromkeys([("at", "the", "top"), ("on", "top"), ("on", "the", "top"), ("at", "top")], 100),
+}  # fmt: skip
 _PLAIN = {
     **{word: plain for word, (plain, _) in lexicon.SUPERLATIVES.items() if word.endswith("est")},
     "smallest": "smaller", "largest": "larger", "biggest": "bigger",
@@ -277,7 +270,7 @@ def _levelled(
 ) -> tuple[list[Token], list[list[Token]]] | None:
     """What stands before "the red one at the bottom, the blue one on top", and these, the lowest first."""
     end = len(tokens) - 1
-    levels_said = _LEVELS | (_BELOW_ABOVE if "stack" in words[:2] else {})
+    levels_said = _LEVELS | ({("below",): 0, ("above",): 100} if "stack" in words[:2] else {})
     ranked: list[tuple[int, list[Token]]] = []
     starts = [0, *(at + 1 for at, word in enumerate(words[:-1]) if word in _JOINTS)]
     first = end
