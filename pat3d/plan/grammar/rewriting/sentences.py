@@ -75,7 +75,8 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
         # "Four jars: the first contains nuts, the second is empty"
         clause = clause or (len(words) == 4 and words[0] == "the" and words[1] in ORDINALS and words[2] in FINITE)
         told = token.text == "," and any(each.text in FINITE for each in made[-1])
-        begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
+        goes = token.text == ":" and _goes(tokens, at + 1) and not known_verb("".join(t.text for t in made[-1][:1]))
+        begins = (clause and (token.text == ":" or told)) or goes
         begins = begins or ((_tells_state(tokens, at, nouns) or _of_another(tokens, at)) and any(map(_holds, made[-1])))
         made[-1].append(replace(token, text=".", mark=True) if begins else token)
         if token.text == "." or begins:
