@@ -181,11 +181,8 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         goal = next((n for n in goals if n not in inside and _leads(made, n + link_at(made, n))), 0)
         verb, joined = made[at].text, made[goal - 1].text == "and"
         sources = {each.text for each in made[at:goal]} & {"from", "off", "out"}
-        if (
-            not goal
-            or (verb == "pick" and not joined)
-            or (verb in _UNLOADING and (verb == "empty" or "from" not in sources))
-        ):
+        stays = verb == "empty" or (verb in _UNLOADING and "from" not in sources)
+        if not goal or (verb == "pick" and not joined) or stays:
             continue
         made[at] = replace(made[at], text="drag" if verb == "pull" and not sources else "move")
         # "Lift the cup up and into the box"

@@ -16,10 +16,9 @@ _COORDINATES = re.compile(
     rf"|{_NAMED}?{_AXIS}(?:,? (?:and )?{_AXIS}){{0,2}}|{_NAMED}{_N}(?:,? (?:and )?{_N}){{1,2}})",
     re.IGNORECASE,
 )
-_HANDS = r"(?:hands?|arms?|fingers?|fingertips?|grippers?|care|caution)"
 _MANNER = re.compile(
-    rf"\((?:(?:with|using|use|by|in) (?:[a-z'-]+ ){{0,3}}{_HANDS}|by (?:its|the|their) [a-z]+|(?:very |quite )?[a-z]+ly"
-    r"|(?:be )?careful[^()]*|slow|mind [^()]*|do(?: not|n't) [^()]*)[.!]*\)",
+    r"\((?:(?:with|using|use|by|in) (?:[a-z'-]+ ){0,3}(?:hands?|arms?|finger(?:tip)?s?|grippers?|care|caution)"
+    r"|by (?:its|the|their) [a-z]+|(?:very |quite )?[a-z]+ly|(?:(?:be )?careful|mind|do not|don't)[^()]*)[.!]*\)",
     re.IGNORECASE,
 )
 

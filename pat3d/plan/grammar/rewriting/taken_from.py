@@ -26,9 +26,7 @@ _ENDING = frozenset({"and", "then", "to", "onto", "into"})
 def from_where(sentence: list[Token], nouns: Nouns) -> list[Token]:
     """`sentence` with "get the shoe out from under the bed" as "get the shoe that is under the bed".
 
-    "Move the cup from the left of the plate to the right of it" is to the right of the plate.
-    "The opposite side of" is the other one: nothing is opposite something there. What is to hang "from" a hook is on it
-    afterwards.
+    "The opposite side of" is the other one. What is to hang "from" a hook is on it afterwards.
     """
     made, hangs = list(sentence), False
     for at in range(1, len(made) - 2):
@@ -54,15 +52,11 @@ def from_where(sentence: list[Token], nouns: Nouns) -> list[Token]:
         found = nouns.match([words[end - 1]]) if sided else None
         level = found is not None and nouns.of_class(found.noun, lexicon.LEVEL)
         # What is on the left side of a table is on it.
-        beside = ("on", "the", words[at + 2], "side", "of") if level else _SIDES.get(words[at + 2], ())
-        stop = next(n for n in range(end, len(words)) if made[n].mark or words[n] in ("and", "then"))
-        it = next((n for n in range(end, stop) if words[n] == "it" and sided), stop)
-        again = [replace(each, number=made[it].number, start=made[it].start, end=made[it].end) for each in made[of:end]]
-        rest = [*made[end:it], *(again if it < stop else ()), *made[it + (it < stop) :]]
-        where = beside if sided else words[at + 1 : of]
+        where = _SIDES[words[at + 2]] if sided else words[at + 1 : of]
+        where = ("on", "the", words[at + 2], "side", "of") if level else where
         start = at - (words[at - 1] in ("out", "up", "off"))
         told = [] if words[start - 1] in lexicon.PRONOUNS else ["that", "is"]
-        made[start:] = [*(replace(made[at], text=word) for word in (*told, *where)), *made[of:end], *rest]
+        made[start:] = [*(replace(made[at], text=word) for word in (*told, *where)), *made[of:]]
     return made
 
 
