@@ -245,7 +245,7 @@ class Doing(Placing):
         ends = link.manner == "edge" or link.side is not None or bool(_PARTS & {phrase.part for phrase in parts})
         ends = ends or "along" in near or link.says == "across"
         # "Push the plate to the front of the stove" is to before it.
-        ends = ends or (near[-3:] == ("the", "front", "of") and not self._world.houses(parents[0]))
+        ends = ends or (near[-3:] == ("the", "front", "of") and self._world.noun(parents[0]) not in lexicon.HOUSES)
         slid = self._clause.verb in _SLIDING or (self._clause.verb == "move" and sided)
         slid = slid or (bool(parts) and {"other", "opposite"} & {*said.split()})
         if slid and level and (ends or sided or (link.kind == "on" and lexicon.DIRECTIONS & {*said.split()})):
