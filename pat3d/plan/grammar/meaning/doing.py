@@ -181,7 +181,7 @@ class Doing(Placing):
         goes_on = link.kind in LATERAL_KINDS and bool(children) and {*children} <= {*self._world.makes}
         made_up = (self._clause.manner == "make" and goes_on) or (
             self._clause.manner in ("make", "stack")
-            and not (taken or into or self._clause.then)
+            and not (taken or into or self._clause.then or self._world.steps)
             and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None

@@ -21,7 +21,7 @@ SEVERAL = f"the instruction is several tasks that make no chain ({STEPS[0]} to {
 """How the note begins that lists them."""
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
-_GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
+_GIVING_AWAY = frozenset({"release", "hand", "pass", "throw", "toss", "bring", "deliver"})
 """Verbs by which what was picked up is no longer where it was, and at no place of the scene."""
 _BELOW = re.compile(r"\b(?:to|on|at) the (?:bottom|lower) (?:side )?of\b", re.IGNORECASE)
 """What is below a thing that holds nothing in it."""
