@@ -29,7 +29,7 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
-_SIDEWAYS = re.compile(r"\bto the (?:left|right)\b(?! (?:of|side|half|end|edge|corner|hand))")
+_SIDEWAYS = re.compile(r"\bto the (?:left|right)(?: (?:on|along|across|over|and|then|by)\b|[,.;]|$)")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",

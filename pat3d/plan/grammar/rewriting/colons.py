@@ -42,11 +42,8 @@ def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     colon = colon or (comma if goals else 0)
     verb = asked(sentence, nouns) if colon else ""
     # "Tidy up: the plates go in the rack"
-    goes = {
-        n
-        for n in range(colon + 2, len(sentence) - 2)
-        if sentence[n].text in ("go", "goes") and link_at(sentence, n + 1)
-    }
+    goes = {n for n in range(colon + 2, len(sentence) - 3) if sentence[n].text in ("go", "goes")
+            and (size := link_at(sentence, n + 1)) and sentence[n + 1 + size].text in lexicon.DEFINITE}  # fmt: skip
     told = [each for n, each in enumerate(sentence[:-1]) if n > colon and n not in goes and each.text not in _ORDER]
     if not verb or not told:
         return [sentence]

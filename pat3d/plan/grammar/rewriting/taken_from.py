@@ -56,7 +56,10 @@ def from_where(sentence: list[Token], nouns: Nouns) -> list[Token]:
         where = ("on", "the", words[at + 2], "side", "of") if level else where
         start = at - (words[at - 1] in ("out", "up", "off"))
         told = [] if words[start - 1] in lexicon.PRONOUNS else ["that", "is"]
-        made[start:] = [*(replace(made[at], text=word) for word in (*told, *where)), *made[of:]]
+        # "From the front of the plate to the back of it"
+        back = _side(words, end) if sided and not level and words[end + 2 : end + 3] in (["back"], ["rear"]) else 0
+        rest = [*([replace(made[end], text="behind")] if back else []), *made[end + back :]]
+        made[start:] = [*(replace(made[at], text=word) for word in (*told, *where)), *made[of:end], *rest]
     return made
 
 
