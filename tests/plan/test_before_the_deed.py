@@ -252,6 +252,21 @@ def test_exceptions_sides_and_lists_of_deeds(prompt: str, task: str):
     assert told(prompt)[1] == task
 
 
+@pytest.mark.parametrize(
+    ("prompt", "task"),
+    [
+        ("Pick up the cup, then release it on the tray.", "place:cup:tray"),
+        ("Pick up the cup and release it.", "pick:cup"),
+        # What is told behind a deed is no scene to make.
+        ("Set the jug upright and put a flower in it.", "place:flower:jug"),
+        ("Wipe the table, then put a vase on it.", "place:vase:table"),
+        ("Put a mug on the table. Put a spoon in it.", None),
+    ],
+)
+def test_what_is_released_and_what_is_done_behind_a_deed(prompt: str, task: str | None):
+    assert told(prompt)[1] == task
+
+
 def test_what_is_cleared_away_is_on_what_is_cleared():
     assert told("Clear the table by putting the cup and the fork into the bin.")[0] == {"cup on table", "fork on table"}
 
