@@ -45,6 +45,11 @@ def test_what_is_taken_off_something_is_on_it_wherever_it_goes(prompt: str, ther
         ("Move the cup from behind the box to the left of it.", {"cup behind box"}, "beside:cup:left_of:box"),
         ("Take the cup out from the box and put it on the tray.", {"cup in box"}, "place:cup:tray"),
         ("Pull the chair out from the table.", {"chair next_to table"}, None),
+        ("Take the pen from within the box.", {"pen in box"}, "pick:pen"),
+        ("Pick the pen from the cup into the box.", {"pen in cup"}, "place:pen:box"),
+        ("Pick the pen from under the chair onto the tray.", {"pen under"}, "place:pen:tray"),
+        ("Retrieve the lid from behind the vase onto the tray.", {"lid behind vase"}, "place:lid:tray"),
+        ("Unhook the mug from the hook onto the tray.", {"mug hangs_from hook"}, "place:mug:tray"),
     ],
 )  # fmt: skip
 def test_from_before_a_place_is_where_a_thing_is(prompt: str, there: set[str], task: str | None):

@@ -21,7 +21,8 @@ from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
-_TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove", "raise", "hoist", "heave"})
+_TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove", "raise", "hoist", "heave",
+                     "retrieve", "extract", "scoop", "snatch", "unhook", "gather", "seize"})  # fmt: skip
 _UNLOADING = frozenset({"unload", "empty"})
 _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "stack"})
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
@@ -182,7 +183,8 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         verb, joined = made[at].text, made[goal - 1].text == "and"
         sources = {each.text for each in made[at:goal]} & {"from", "off", "out"}
         stays = verb == "empty" or (verb in _UNLOADING and "from" not in sources)
-        if not goal or (verb == "pick" and not joined) or stays:
+        there = any(made[n].text == "that" and link_at(made, n + 2) for n in range(at, goal - 2))
+        if not goal or (verb == "pick" and not (joined or sources or there)) or stays:
             continue
         made[at] = replace(made[at], text="drag" if verb == "pull" and not sources else "move")
         # "Lift the cup up and into the box"

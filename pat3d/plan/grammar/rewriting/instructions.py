@@ -41,7 +41,7 @@ VERBS: dict[str, Manner] = {
     "stack": "stack",
     **dict.fromkeys(("pick", "grasp", "grab", "lift", "raise", "take", "fetch", "get", "hold", "retrieve", "choose",
                      "select", "remove", "gather", "identify", "find", "locate", "seize", "extract",
-                     "unhook", "hoist", "heave"), "pick"),
+                     "unhook", "hoist", "heave", "snatch"), "pick"),
     **dict.fromkeys(("empty", "unload"), "unload"),
     "sort": "sort",
     **dict.fromkeys(("open", "close", "shut", "turn", "switch", "press", "rotate", "flip", "pull", "wipe", "wash",
