@@ -272,6 +272,12 @@ def test_what_is_released_and_what_is_done_behind_a_deed(prompt: str, task: str 
     assert told(prompt)[1] == task
 
 
+def test_what_is_put_inside_behind_a_deed_is_not_there_yet():
+    prompt = "Take the lid off the jar and put a walnut inside."
+    assert told(prompt)[0] == {"lid on jar"}
+    assert "place:walnut:jar" in noted(prompt)
+
+
 def test_what_is_cleared_away_is_on_what_is_cleared():
     assert told("Clear the table by putting the cup and the fork into the bin.")[0] == {"cup on table", "fork on table"}
 
