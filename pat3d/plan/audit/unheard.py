@@ -102,6 +102,7 @@ def _goes_without_saying(words: Sequence[str], at: int) -> bool:
     counted = word == "number" and before == "the" and after == ["of"]
     sided = word == "respectively" and len(_SIDES & {*words[:at]}) > 1
     sided = sided or (word == "apart" and after == ["from"])
+    sided = sided or (word == "after" and (before == "one" or (after in (["that"], ["this"]) and at + 3 < len(words))))
     hued = word in ("color", "colour") and before == "in" and find_colour(words[at - 2]) is not None
     return flat or counted or sided or hued or (word in FARTHEST and after in (["left"], ["right"], ["to"]))
 

@@ -251,7 +251,7 @@ put place pick take move grab grasp lift stack transfer fetch insert push slide 
 robot robotic gripper away back close pass hand relocate reposition shift drag throw putting placing stacking
 picking moving taking lifting bringing tidy clear scoop seize extract unhook alone grip firm strip
 arrange load collect toss chuck slap plop pop lob fling hurl gather sweep shove nudge deposit stow stash dump cover seal
-serve position
+serve position release hoist heave haul guide ease pull repeat likewise afterwards
 """
 SILENT = frozenset(
     (*_BUILDING.split(), *_POSTURES.split(), *(word for phrase in RELATIONS for word in phrase), *NUMBERS)

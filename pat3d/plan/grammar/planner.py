@@ -36,6 +36,7 @@ from pat3d.plan.grammar.rewriting.distances import with_distances
 from pat3d.plan.grammar.rewriting.distractors import without_distractors
 from pat3d.plan.grammar.rewriting.drawers import drawer_of, drawers_moved
 from pat3d.plan.grammar.rewriting.fractions import in_numbers
+from pat3d.plan.grammar.rewriting.insets import without_insets
 from pat3d.plan.grammar.rewriting.instructions import Clause, clauses
 from pat3d.plan.grammar.rewriting.laid_tables import laid_tables
 from pat3d.plan.grammar.rewriting.lettering import lettering
@@ -121,7 +122,8 @@ class GrammarPlanner(Sparing):
         if len(prompt) > MAX_CHARACTERS:
             raise PromptError(f"the prompt has {len(prompt)} characters; at most {MAX_CHARACTERS} are read.")
         check_language(text := normalise(prompt))
-        tokens, distracting = without_distractors(text, tokenise(text))
+        tokens, inset = without_insets(text, tokenise(text))
+        tokens, distracting = without_distractors(text, tokens)
         tokens, charted = compass(text, tokens)
         tokens, shares = in_numbers(text, tokens, self._nouns)
         tokens = in_plain_words(text, tokens, self._nouns)
@@ -137,7 +139,7 @@ class GrammarPlanner(Sparing):
         away = [f'not modelled: "{each}"' for each in away]
         hues = (text[token.start : token.end].lower() for token in tokens if token.text == "block")
         hued = [_BLOCK] if any(map(is_colour_word, hues)) else []
-        world.notes += [*away, *which, *charted, *shares, *distracting, *hued]
+        world.notes += [*away, *which, *charted, *shares, *inset, *distracting, *hued]
         world.aside += [*aside, *means]
         for at, clause in enumerate(told):
             world, other = self._read_less(text, clause, world, company, told)

@@ -116,8 +116,7 @@ class PhraseReader:
         """The phrase that begins at token `start` and the token after it; None where no phrase begins there."""
         at, count, flags = opening(self._tokens, start)
         self._definite = flags.get("definite", False)
-        run, after = self._bounds.run(at)
-        tokens = self._tokens
+        (run, after), tokens = self._bounds.run(at), self._tokens
         another = flags.pop("another", False)
         flags["other"], own = flags.get("other", False) or another, NO_MODIFIERS
         if not self._definite and count is None and [token.text for token in run[1:]] == ["one"]:
@@ -177,6 +176,7 @@ class PhraseReader:
             count, flags = 1, {**flags, "vague": False}
         words = self._text[tokens[start].start : tokens[after - 1].end]
         number = phrase.number or tokens[after - 1].number
+        flags["other"] &= phrase.part not in lexicon.ENDS  # "The other side of the table" is of one table.
         merged = {key: value or getattr(phrase, key) for key, value in flags.items()}
         return replace(
             phrase, words=words, count=count if count is not None else phrase.count, number=number, **merged

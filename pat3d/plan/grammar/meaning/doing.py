@@ -29,13 +29,13 @@ _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift"
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
 _BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
+_SIDEWAYS = re.compile(r"\bto the (?:left|right)(?: (?:on|along|across|over|and|then|by)\b|[,.;]|$)")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
     "doorway", "corner", "corners", "curtain", "curtains", "wallpaper", "fence", "railing", "entrance",
     "palette"})  # fmt: skip
 """What is never made, though things are said to be on it and in it as well as by it."""
-ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
-"""Parts to which nothing is related: the whole is taken."""
+_PARTS = lexicon.ENDS | {"back", "rear", "front", "middle", "center", "centre"}  # of what a thing is slid along
 
 
 class Doing(Placing):
@@ -181,7 +181,7 @@ class Doing(Placing):
         goes_on = link.kind in LATERAL_KINDS and bool(children) and {*children} <= {*self._world.makes}
         made_up = (self._clause.manner == "make" and goes_on) or (
             self._clause.manner in ("make", "stack")
-            and not (taken or into or self._clause.then)
+            and not (taken or into or self._clause.then or self._world.steps)
             and not any(item.group in self._said.before for item in children)
             and all(
                 phrase is not None
@@ -204,7 +204,8 @@ class Doing(Placing):
                     link = Link(kind="hangs_from")
                 if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
                     link = Link(kind="next_to", says="leaning_against")
-                self._relating.relate(children, link, parents)
+                if len(parent_heads) != 1 or not self._on_tier(children, parent_heads[0], parents):
+                    self._relating.relate(children, link, parents)
                 self._world.makes += [*children, *parents]
                 meant = "." if goes_on else '; with "the" before what is moved it is a task.'
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
@@ -238,9 +239,16 @@ class Doing(Placing):
             link = Link(kind="hangs_from")
         if link.manner == "half" and link.side != "centre" and parents and self._world.is_a(parents[0], lexicon.LEVEL):
             self._world.note(f'not modelled: "{self._chunks[at].text} {goal}": no task asks for a side.')
-        ends = any(phrase.part in ENDS for head in parent_heads if (phrase := self._chunks[head].phrase) is not None)
-        along = link.kind == "on" and bool(lexicon.DIRECTIONS & {*self._clause.said.lower().split()})
-        if self._clause.verb in _SLIDING and level and (ends or along or link.says == "across"):
+        parts = [phrase for head in parent_heads if (phrase := self._chunks[head].phrase) is not None and phrase.part]
+        said, near = self._clause.said.lower(), self._chunks[at].words
+        sided = link.kind == "on" and _SIDEWAYS.search(said) is not None
+        ends = link.manner == "edge" or link.side is not None or bool(_PARTS & {phrase.part for phrase in parts})
+        ends = ends or "along" in near or link.says == "across"
+        # "Push the plate to the front of the stove" is to before it.
+        ends = ends or (near[-3:] == ("the", "front", "of") and self._world.noun(parents[0]) not in lexicon.HOUSES)
+        slid = self._clause.verb in _SLIDING or (self._clause.verb == "move" and sided)
+        slid = slid or (bool(parts) and {"other", "opposite"} & {*said.split()})
+        if slid and level and (ends or sided or (link.kind == "on" and lexicon.DIRECTIONS & {*said.split()})):
             # "Slide the plate to the edge of the table", "slide it forward on the table": it is on the table.
             children = [item for item in children if not self._world.on_floor(item)]
             if children and all(self._world.support(item) is None for item in children):
@@ -249,7 +257,8 @@ class Doing(Placing):
         self._from_there(children, parents)
         self._out_of_opened(children, parents)
         taken = self._world.steps[-1] if self._world.steps else None
-        if taken is not None and taken.manner == "pick" and [*taken.items] == children and self._opened() == parents:
+        opened = self._opened() == parents != []
+        if opened and taken is not None and taken.manner == "pick" and [*taken.items] == children:
             # "Open the box, pick up the ring and put it in the box": it was not in there.
             for item in children:
                 self._world.supports.pop(item, None)
@@ -300,7 +309,8 @@ class Doing(Placing):
             bare = not any(self._world.support(item) in children for item in self._world.items())
             children = [item for item in below[:1] if item is not None and bare] or children
         self._out_of_opened(children, [])
-        out = self._clause.manner == "pick" and "out" in self._clause.said.lower().split()
+        said = self._clause.said.lower()
+        out = self._clause.manner == "pick" and "out" in said.split() and "out from" not in said
         if out and children and all(self._world.support(item) is None for item in children):
             named = f'"{children[0].group.words}"'
             self._world.note(f'not modelled: "{self._clause.said}": what {named} is taken out of is not said with it.')
@@ -404,7 +414,7 @@ class Doing(Placing):
 
     def _note_part(self, head: int) -> None:
         phrase = self._chunks[head].phrase
-        if self._clause.manner is None and tier_of(self._world, self._chunks[head], self._said.ref(head)) is not None:
+        if tier_of(self._world, self._chunks[head], self._said.ref(head)) is not None:
             return
         parts = lexicon.DRAWERS | lexicon.DETACHED | lexicon.FITTED
         if phrase is not None and phrase.part in parts and phrase.kind == "object":

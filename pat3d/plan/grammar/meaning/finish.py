@@ -8,6 +8,7 @@ from pat3d.errors import PromptError
 from pat3d.plan.drawers import DRAWERS
 from pat3d.plan.grammar.meaning import apart, arranging, covers, orders, ranks
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item, Sided
+from pat3d.plan.grammar.meaning.undone import open_or_shut
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import normalise, singulars, tokenise
@@ -63,7 +64,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
             del world.supports[item]
     apart.settle(world)
     covers.settle(world)
-    _open_boxes(world, nouns)
+    open_or_shut(world, nouns)
     _widen_bowls(world, nouns)
     ranks.settle(world)
     _pair_sides(world)
@@ -89,20 +90,6 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
         postures=tuple(postures),
     )
     return plan, names
-
-
-def _open_boxes(world: World, nouns: Nouns) -> None:
-    """Make what holds something, or is to hold it, an open thing: a carton with balls in it is an open box."""
-    holders = [edge.parent for edge in world.supports.values() if edge.kind == "in"]
-    holders += [item for step in world.steps if step.link and step.link.kind == "in" for item in step.goal]
-    for holder in holders:
-        group = holder.group
-        for closed, opened in (lexicon.OPENED | (lexicon.HOUSES if world.houses(holder) else {})).items():
-            noun = nouns.resolve(opened)
-            if noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
-                group.noun = noun
-                if closed in lexicon.HOUSES and world.steps:
-                    world.note(f'"{group.words}" is made open, as what is in it is reached so.')
 
 
 def _widen_bowls(world: World, nouns: Nouns) -> None:

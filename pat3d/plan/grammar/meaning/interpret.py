@@ -11,7 +11,6 @@ from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
 from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
-from pat3d.plan.grammar.meaning.doing import ENDS
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position
@@ -241,6 +240,9 @@ class Interpreter(Holding):
         moved = self._clause.verb in _ROLLING and (link.kind in LATERAL_KINDS or link.manner in ("under", "between"))
         aimed = self._clause.verb == "point" and self._chunks[at].words == ("at",)
         later = link.manner == "goal" or aimed or (moved and at == 1) or self._world.was_taken(children)
+        if self._clause.manner == "other" and link.manner == "edge" and self._chunks[at].words[:1] == ("along",):
+            # "Align the cans along the edge of the shelf": before that they stand anywhere on it.
+            link = Link(kind="on")
         if self._clause.manner in ("other", "unload") and later:
             # "Pour the milk into the glass", "point the camera at the vase": before that it is not so.
             self._said.not_understood((*child_heads, *parent_heads))
@@ -332,7 +334,7 @@ class Interpreter(Holding):
             return
         if link.kind in LATERAL_KINDS or link.manner == "between":
             for place in places:
-                if place is not None and place.part in ENDS:
+                if place is not None and place.part in lexicon.ENDS:
                     self._world.note(f'not modelled: "{place.part}" of "{place.words}"')
         below = self._world.is_table(parents[0]) and not self._world.on_floor(children[0])
         if link.says == "across" and self._chunks[at - 1].text == "facing" and len(children) == 2 and not below:

@@ -21,7 +21,7 @@ SEVERAL = f"the instruction is several tasks that make no chain ({STEPS[0]} to {
 """How the note begins that lists them."""
 _FORMING = frozenset({"pile", "cluster", "scatter", "spread"})
 """Verbs of placing that say how several things stand together."""
-_GIVING_AWAY = frozenset({"hand", "pass", "throw", "toss", "bring", "deliver"})
+_GIVING_AWAY = frozenset({"release", "hand", "pass", "throw", "toss", "bring", "deliver"})
 """Verbs by which what was picked up is no longer where it was, and at no place of the scene."""
 _BELOW = re.compile(r"\b(?:to|on|at) the (?:bottom|lower) (?:side )?of\b", re.IGNORECASE)
 """What is below a thing that holds nothing in it."""
@@ -33,7 +33,7 @@ _SIDE_OF = re.compile(r"\b(left|right)(?:-hand| hand)? side of\b", re.IGNORECASE
 _AT_SIDE_OF = re.compile(r"\b(?:on|to|at) the (?:left|right)(?:[- ]hand)?(?: side)? of\b", re.IGNORECASE)
 """What is "on the right side of the plate" is in no half of it."""
 _ASIDE = r"(?:to the )?(?:left of|right of|in front of|behind|next to|beside|near)\b"
-_ASIDE_TWICE = re.compile(rf"\b({_ASIDE} [^,;.]+?),? and (?={_ASIDE})", re.IGNORECASE)
+_ASIDE_TWICE = re.compile(rf"\b(?<!from )({_ASIDE} [^,;.]+?),? and (?={_ASIDE})", re.IGNORECASE)
 """Two places of one thing, of which a task has the second."""
 _THERE_BEFORE = re.compile(
     rf"{_ASIDE} .*?\b(?<!that )(?<!which )(?:ends? up|winds? up|is|are|should|must|has to|have to|goes|go|belongs?)\b",
@@ -213,7 +213,9 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
     if goal is None:
         return []
     if not _is_placing(step, world, items, goal):
-        return _beside(step, world, items, goal, names)
+        piled = step.manner == "stack" and len(items) > 1 and _beside(step, world, items[:1], goal, names)
+        # "Stack the cups to the left of the plate"
+        return [*piled, *_tower(items, names)] if piled else _beside(step, world, items, goal, names)
     noun = world.noun(goal)
     stacked = step.manner == "stack" and not world.likely.hollow(noun) and not world.likely.level(noun)
     kind = "stack" if stacked else "place"

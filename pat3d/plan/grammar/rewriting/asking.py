@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.rewriting.own_colours import in_one_way
-from pat3d.plan.grammar.rewriting.taken_from import from_side, stack_of
+from pat3d.plan.grammar.rewriting.taken_from import from_where, stack_of
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
@@ -68,20 +68,15 @@ def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
         told_before = [token.text for each in made for token in each]
         there = _another(_nothing_there(sentence), told_before, nouns)
         whole = _before_that(_stripped(_that_is(there, told_before)))
-        made += _plainly(_by_the_robot(stack_of(whole)), told_before, nouns)
+        made += _plainly(from_where(_by_the_robot(stack_of(whole)), nouns), told_before)
     return made
 
 
-def _plainly(whole: list[Token], before: Sequence[str], nouns: Nouns) -> list[list[Token]]:
-    """What is asked with `whole`, behind sentences with the words `before`."""
-    made: list[list[Token]] = []
-    for sentence in from_side(whole, nouns):
-        plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
-        plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_politely(plain))))))))
-        piled = bool(_PILES & {*before, *(token.text for each in made for token in each)})
-        for each in _from_stack(plain, piled=piled):
-            made += _all_but(each)
-    return made
+def _plainly(sentence: list[Token], before: Sequence[str]) -> list[list[Token]]:
+    """What is asked with `sentence`, behind sentences with the words `before`."""
+    plain = in_one_way(sentence) if base_verb(sentence[0].text) == sentence[0].text else sentence
+    plain = _inside(_so_that(_let(_got(_lowered(_cleared(_emptied(_politely(plain))))))))
+    return [one for each in _from_stack(plain, piled=bool(_PILES & {*before})) for one in _all_but(each)]
 
 
 def _by_the_robot(sentence: list[Token]) -> list[Token]:
@@ -168,7 +163,8 @@ def _cleared(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     by = words.index("by") if words[0] in ("clear", "empty") and "by" in words[2:6] else 0
     verb = base_verb(words[by + 1]) if by and words[by + 1].endswith("ing") else None
-    to = next((n for n in range(by + 3, len(words) - 2) if sentence[n].mark or link_at(sentence, n)), 0)
+    ends = (n for n in range(by + 3, len(words) - 2) if words[n] in (".", ":") or link_at(sentence, n))
+    to = next(ends, 0)
     if verb not in _TAKING or words[1] not in _LEADS or not to or sentence[to].mark:
         return sentence
     put, source = replace(sentence[0], text=verb), replace(sentence[0], text="from")
@@ -361,7 +357,9 @@ def _all_but(sentence: list[Token]) -> list[list[Token]]:
             left = [*sentence[but + size : end], *where, *sentence[at + every + 2 : but if out else 0], sentence[-1]]
             if source or (words[at] == "all" and every == 1):
                 left = [*left[: end - but - size], sentence[-1]]
-                return [left, [*sentence[:but], *sentence[end:]]]
+                # "Put all the fruit in the bowl except the lemon" is quoted whole.
+                last = replace(sentence[but - 1], end=sentence[end - 1].end)
+                return [left, [*sentence[: but - 1], last, *sentence[end:]]]
             everything = replace(sentence[at], text="everything", end=sentence[end - 1].end)
             return [left, [*sentence[:at], everything, *sentence[at + every : but], *sentence[end:]]]
     return [sentence]

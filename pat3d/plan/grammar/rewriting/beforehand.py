@@ -23,15 +23,15 @@ _IN_IT = (["in", "it"], ["on", "it"], ["inside", "it"], ["on", "top"])
 _OTHERWISE = frozenset({"from", "of", "out", "off", "that", "which", "and", "or", "then"})
 """Words behind a thing that is had by what is moved, by which it is told where that is or which thing is meant."""
 _SWAPPING = frozenset({"swap", "exchange", "trade", "switch"})
+_TO = frozenset({"with", "into", "onto", "to"})
 _AGAIN = ("do", "the", "same")
-_SLIDING = frozenset({"slide", "push", "move", "shift", "nudge", "drag", "shove", "pull"})
 _TOPS = (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES, lexicon.THIN)
 _CLEANING = frozenset({"wipe", "clean", "scrub", "sweep", "polish", "vacuum", "mop"})
 
 
 def told_before(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """`sentence` behind what it tells of how things stand before it."""
-    return _exchanged(sentence, nouns) or _around(sentence, nouns) or _slid(sentence) or _carrying(sentence, nouns)
+    return _exchanged(sentence, nouns) or _around(sentence, nouns) or _carrying(sentence, nouns)
 
 
 def ones_named(told: Sequence[list[Token]], nouns: Nouns) -> list[list[Token]]:
@@ -67,30 +67,12 @@ def _same_with(before: Sequence[Token], sentence: Sequence[Token]) -> list[Token
         return None
     end = next((n for n in range(first + 1, len(before)) if link_at(before, n) or before[n].mark
                 or before[n].text == "and"), 0)  # fmt: skip
-    if not end or words[4] not in _LEADS or any(token.mark for token in sentence[:-1]):
+    if not end or words[4] not in _LEADS or any(token.mark for token in sentence[:-1]) or _TO & {*words[4:]}:
         return None
     several = lexicon.NUMBERS.keys() - {"a", "an", "one"} & {*words} or words[-2] in ("others", "ones", "rest")
     rest = [replace(each, text="them") if several and each.text == "it" else each for each in before[end:]]
     verb = replace(before[0], start=sentence[0].start, end=sentence[-2].end, number=sentence[0].number)
     return [verb, *before[1:first], *sentence[4:-1], *rest, sentence[-1]]
-
-
-def _slid(sentence: list[Token]) -> list[list[Token]]:
-    """Tell "slide the cup to the left on the desk" as "the cup is on the desk", "slide the cup to the left"."""
-    words = [token.text for token in sentence]
-    please = int(words[0] == "please")
-    side = next((n for n in range(please + 2, len(words) - 3) if words[n : n + 2] == ["to", "the"]
-                 and words[n + 2] in ("left", "right") and words[n + 3] != "of"), 0)  # fmt: skip
-    on = next((n for n in range(please + 3, len(words) - 2) if words[n] in ("on", "along", "across")
-               and words[n + 1] in _LEADS), 0)  # fmt: skip
-    end = next(n for n in range(on, len(words)) if sentence[n].mark or n == side > on)
-    plain = words[please] in _SLIDING and words[please + 1] in _LEADS and side and on
-    if not plain or any(token.mark or token.text == "and" for token in sentence[: max(side, end)]):
-        return []
-    moved = next(n for n in range(please + 2, len(words)) if link_at(sentence, n) or words[n].isdecimal())
-    is_on = replace(sentence[on], text="on")
-    there = _told(sentence[please + 1 : moved], [is_on, *sentence[on + 1 : end]], many=False)
-    return [there, [*sentence[:on], *sentence[end:]]]
 
 
 def _told(subject: Sequence[Token], place: Sequence[Token], *, many: bool) -> list[Token]:

@@ -41,7 +41,10 @@ def behind_colons(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     goals = sentence[comma].mark and _lists_goals(sentence[:comma], sentence[comma + 1 :], nouns)
     colon = colon or (comma if goals else 0)
     verb = asked(sentence, nouns) if colon else ""
-    told = [token for token in sentence[colon + 1 : -1] if token.text not in _ORDER]
+    # "Tidy up: the plates go in the rack"
+    goes = {n for n in range(colon + 2, len(sentence) - 3) if sentence[n].text in ("go", "goes")
+            and (size := link_at(sentence, n + 1)) and sentence[n + 1 + size].text in lexicon.DEFINITE}  # fmt: skip
+    told = [each for n, each in enumerate(sentence[:-1]) if n > colon and n not in goes and each.text not in _ORDER]
     if not verb or not told:
         return [sentence]
     head, end = sentence[:colon], sentence[colon:]

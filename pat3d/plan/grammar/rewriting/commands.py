@@ -226,8 +226,10 @@ def _ordered(tokens: Sequence[Token]) -> Sequence[Token]:
     for at in range(1, len(words) - 3):
         goes = words[at] == "go" or (words[at] == "goes" and words[at + 1] in ("into", "onto"))
         if goes and words[0] in ("the", "all", "both") and words[at + 1] in _PLACING and not tokens[at - 1].mark:
-            # "The plates go into the sink."
-            return [replace(tokens[0], text="put"), *tokens[:at], *tokens[at + 1 :]]
+            # "The plates go into the sink and the cups go on the shelf."
+            again = {n for n in range(at + 4, len(words) - 2) if words[n] in ("go", "goes") and link_at(tokens, n + 1)}
+            kept = [token for n, token in enumerate(tokens) if n not in again | {at}]
+            return [replace(tokens[0], text="put"), *kept]
         if words[at] in lexicon.MODALS and words[at + 1] in ("stay", "remain") and words[0] in lexicon.DEFINITE:
             # "The cups can stay on the shelf", "the cups can stay where they are"
             if link_at(tokens, at + 2):

@@ -21,11 +21,12 @@ from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
-_TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove"})
+_TAKING = frozenset({"take", "get", "grab", "lift", "pick", "fetch", "pull", "remove", "raise", "hoist", "heave",
+                     "retrieve", "extract", "scoop", "snatch", "unhook", "gather", "seize"})  # fmt: skip
 _UNLOADING = frozenset({"unload", "empty"})
 _PUTTING = frozenset({"put", "place", "set", "move", "lay", "drop", "insert", "stack"})
 _GOALS = frozenset({("to",), ("onto",), ("into",), ("over", "to"), ("back", "to"), ("back", "onto"),
-                    ("back", "into")})  # fmt: skip
+                    ("back", "into"), ("to", "the", "front", "of")})  # fmt: skip
 _PLACES = frozenset({"in", "on", "inside", "into", "onto", "under", "beside", "next", "behind", "near"})
 _HOLDING = frozenset({"in", "on", "inside", "within"})
 _AFTER = tuple(tuple(said.split()) for said in (
@@ -180,11 +181,15 @@ def _carried(tokens: Sequence[Token]) -> list[Token]:
         goals = (n for n in range(at + 2, end) if tuple(t.text for t in made[n : n + link_at(made, n)]) in _GOALS)
         goal = next((n for n in goals if n not in inside and _leads(made, n + link_at(made, n))), 0)
         verb, joined = made[at].text, made[goal - 1].text == "and"
-        source = any(made[n].text == "from" for n in range(at, goal))
-        if not goal or (verb == "pick" and not joined) or (verb in _UNLOADING and (verb == "empty" or not source)):
+        sources = {each.text for each in made[at:goal]} & {"from", "off", "out"}
+        stays = verb == "empty" or (verb in _UNLOADING and "from" not in sources)
+        there = any(made[n].text == "that" and link_at(made, n + 2) for n in range(at, goal - 2))
+        if not goal or (verb == "pick" and not (joined or sources or there)) or stays:
             continue
-        made[at] = replace(made[at], text="move")
-        drop = ({goal - 1} if joined else set()) | ({at + 1} if made[at + 1].text == "up" else set())
+        made[at] = replace(made[at], text="drag" if verb == "pull" and not sources else "move")
+        # "Lift the cup up and into the box"
+        up = next(n for n in range(goal - 1 - joined, at, -1) if made[n].text != "up")
+        drop = {*range(up + 1, goal)} | ({at + 1} if made[at + 1].text == "up" else set())
         kept = [token for n, token in enumerate(made) if n not in drop]
         return _carried(kept) if any(_commands(kept, n) for n in range(at + 1, len(kept))) else kept
     return made

@@ -31,7 +31,10 @@ _EXTREME = (
 )
 _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
-    r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random)",
+    # "insert the pen tip first"
+    rf"(?<!the )(?<!its )(?:{'|'.join(sorted(lexicon.PARTS))})(?:[ -](?:side|end))?[ -]first",
+    r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random"
+    r"|straight (?:up|down))",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
     r"\S+ than (?:either|both|all)",
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",
@@ -199,8 +202,6 @@ def _if(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
         return [*tokens[:start], *tokens[rest:]], [(tokens[at], tokens[end - 1])]
     return None
 
-    return None
-
 
 def _outlined(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "three cans in a triangle on a tray", "three cans form a triangle", as "three cans on a tray".
@@ -271,18 +272,27 @@ def _in_that_order(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> T
 def _such_that(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "put three cans in a box such that the red one is on the left" without the second clause.
 
-    So is "so that the camera cannot see it". It may name nothing new: of "such that a fork lies beside it" the fork is
-    there.
+    So are "so that the camera cannot see it" and "so its handle points left". It may name nothing new: of "such that a
+    fork lies beside it" the fork is there.
     """
-    purpose = words[0] == "stack" or bool(_UNSEEN & {*words})
-    soes = (["such", "that"], ["so", "that"]) if purpose else (["such", "that"],)
-    at = next((n for n in range(3, len(words) - 3) if words[n : n + 2] in soes), 0)
+    at = next((n for n in range(3, len(words) - 3) if words[n] in ("so", "such")
+               and (words[n + 1] == "that" or words[n] == "so")), 0)  # fmt: skip
     if not at:
         return None
+    first = at + 1 + (words[at + 1] == "that")
+    its = words[first] in ("its", "their")
+    turned = its or (words[first] == "the" and lexicon.PARTS & {words[first + 1], *singulars(words[first + 1])})
+    hidden = words[at + 1] == "that" and (words[0] == "stack" or _UNSEEN & {*words})
+    if not (words[at] == "such" or hidden or (turned and base_verb(words[0]) == words[0])):
+        return None
+    ends = (n for n in range(first, len(words)) if tokens[n].mark or
+            (words[n] in ("and", "then") and base_verb(words[n + 1]) == words[n + 1]))  # fmt: skip
+    end = next(ends) if turned else len(words) - 1
     named = {*words[:at], *lexicon.VIEWERS}
-    for n in range(at + 2, len(words) - 1):
+    for n in range(first + 2 * bool(turned), end):
         again = named & {words[n], words[n] + "s", *singulars(words[n])}
+        again |= lexicon.PARTS & {words[n]} if turned else set()
         if words[n] in ("a", "an", "another") or (nouns.match([words[n]]) is not None and not again):
             return None
     start = at - (words[at - 1] == ",")
-    return [*tokens[:start], tokens[-1]], [(tokens[at], tokens[-2])]
+    return [*tokens[:start], *tokens[end:]], [(tokens[at], tokens[end - 1])]

@@ -47,6 +47,7 @@ from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import EACH_OTHER, LINKS, SIDES, WHICH_EDGE
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import of_what
+from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import LATERAL_KINDS
 
@@ -205,9 +206,15 @@ def _its_places(tokens: Sequence[Token]) -> list[Token]:
         words = tuple(token.text for token in tokens[at : at + 3])
         told = _ITS.get((words[0], words[2])) if len(words) == 3 and words[1] in ("its", "their") else None
         follower = tokens[min(at + 3, len(tokens) - 1)].text
-        if sides > 1 and words[1:] in (("its", "left"), ("its", "right")) and words[0] in ("to", "on", "at"):
+        asked = base_verb(tokens[0].text) == tokens[0].text and any(link_at(tokens, n) for n in range(at - 2))
+        if (asked or sides > 1) and words[1:] in (("its", "left"), ("its", "right")) and words[0] in ("to", "on", "at"):
             # "to its left a mug, to its right a lamp": both beside the same.
-            fronted = follower in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | STANDING or follower.isdecimal()
+            # "Put the cup on the tray and the fork to its left."
+            fronted = (
+                (asked and follower in (".", ",", "and"))
+                or follower in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | STANDING
+                or follower.isdecimal()
+            )
             told = (words[0], "the", words[2], "of") if fronted else None
         if words[1:] in (("their", "left"), ("their", "right")) and words[0] in ("to", "on", "at"):
             # "A cup and a plate, with a spoon to their left"

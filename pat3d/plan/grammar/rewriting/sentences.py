@@ -12,6 +12,7 @@ from pat3d.plan.grammar.rewriting.colons import behind_colons, one_for_each, wit
 from pat3d.plan.grammar.rewriting.doers import told_plainly
 from pat3d.plan.grammar.rewriting.exceptions import coloured_alike, exceptions
 from pat3d.plan.grammar.rewriting.instructions import known_verb
+from pat3d.plan.grammar.rewriting.next_deeds import next_deeds
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
 from pat3d.plan.grammar.rewriting.wanted_states import brought_about
@@ -49,7 +50,7 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _set_apart(_contents(_and_no_more(told_plainly(tokens)), nouns))
+    tokens = _set_apart(_contents(_and_no_more(told_plainly(next_deeds(tokens))), nouns))
     cut = with_goals(_cut(tokens, nouns), nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
@@ -74,7 +75,8 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
         # "Four jars: the first contains nuts, the second is empty"
         clause = clause or (len(words) == 4 and words[0] == "the" and words[1] in ORDINALS and words[2] in FINITE)
         told = token.text == "," and any(each.text in FINITE for each in made[-1])
-        begins = (clause and (token.text == ":" or told)) or (token.text == ":" and _goes(tokens, at + 1))
+        goes = token.text == ":" and _goes(tokens, at + 1) and not known_verb("".join(t.text for t in made[-1][:1]))
+        begins = (clause and (token.text == ":" or told)) or goes
         begins = begins or ((_tells_state(tokens, at, nouns) or _of_another(tokens, at)) and any(map(_holds, made[-1])))
         made[-1].append(replace(token, text=".", mark=True) if begins else token)
         if token.text == "." or begins:

@@ -1,7 +1,4 @@
-"""Where something is taken from, as what is there: "move the cup from the left of the plate to the right of it".
-
-That is "the cup is to the left of the plate", and "move the cup to the right of the plate".
-"""
+"""Where something is taken from, as what is there: "get the shoe out from under the bed"."""
 
 from __future__ import annotations
 
@@ -11,41 +8,59 @@ from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.links import LINKS
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _SIDES = {"left": ("to", "the", "left", "of"), "right": ("to", "the", "right", "of"), "front": ("in", "front", "of"),
           "back": ("behind",), "rear": ("behind",)}  # fmt: skip
 _OFF = (("off",), ("from",), ("off", "of"), ("out", "of"))
+_LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | {"it", "them"}
+_SIDED = frozenset({"side", "end", "corner", "edge"})
+_HANGING = frozenset({"hang", "suspend", "dangle"})
+_JOINING = frozenset({"and", "then", ",", "please"})
 _RANKS = frozenset({"top", "bottom"})
 _ENDING = frozenset({"and", "then", "to", "onto", "into"})
 
 
-def from_side(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
-    """Tell "move the cup from the left of the plate to the right of it" as two sentences."""
-    words = [token.text for token in sentence]
-    verb = int(words[0] == "please")
-    first = verb + 1 + (words[min(verb + 1, len(words) - 1)] in ("up", "out"))
-    at = next((n for n in range(first + 2, len(words) - 5) if words[n] == "from" and _side(words, n)), 0)
-    moved = sentence[first:at]
-    plain = not any(token.mark or link_at(sentence, n + first) for n, token in enumerate(moved))
-    if not at or not plain or not known_verb(words[verb]) or words[first] not in lexicon.DEFINITE:
-        return [sentence]
-    of = at + _side(words, at)
-    end = next(n for n in range(of + 1, len(words)) if sentence[n].mark or link_at(sentence, n) or words[n] in _ENDING)
-    mark = sentence[of:end]
-    found = nouns.match([words[end - 1]])
-    many = words[first] in ("all", "both", "these", "those") or words[first + 1] in lexicon.NUMBERS
-    level = found is not None and nouns.of_class(found.noun, lexicon.LEVEL)
-    # What is on the left side of a table is on it.
-    where = ("on", "the", words[at + 2], "side", "of") if level else _SIDES[words[at + 2]]
-    there = [replace(sentence[at + 2], text=word) for word in ("are" if many else "is", *where)]
-    rest = sentence[end:]
-    to = _side(words[end:], 0) if not level and words[end] == "to" else 0
-    if to:
-        beside = [replace(rest[2], text=word) for word in _SIDES[rest[2].text]]
-        again = [replace(each, number=rest[to].number, start=rest[to].start, end=rest[to].end) for each in mark]
-        rest = [*beside, *(again if rest[to].text == "it" else [rest[to]]), *rest[to + 1 :]]
-    return [[*moved, *there, *mark, replace(sentence[-1])], [*sentence[:at], *rest]]
+def from_where(sentence: list[Token], nouns: Nouns) -> list[Token]:
+    """`sentence` with "get the shoe out from under the bed" as "get the shoe that is under the bed".
+
+    "The opposite side of" is the other one. What is to hang "from" a hook is on it afterwards.
+    """
+    made, hangs = list(sentence), False
+    for at in range(1, len(made) - 2):
+        verb = made[at - 1].text
+        deed = verb in _HANGING and (at == 1 or made[at - 2].text in _JOINING)
+        hangs = deed or (hangs and not known_verb(verb))
+        made[at - 1] = replace(made[at - 1], text="hang") if deed else made[at - 1]
+        if hangs and made[at].text in ("from", "off") and made[at + 1].text in _LEADS:
+            made[at] = replace(made[at], text="on")
+        if (made[at - 1].text, made[at].text) == ("the", "opposite") and made[at + 1].text in _SIDED:
+            made[at] = replace(made[at], text="other")
+    for at in (n for n in range(len(made) - 4, 1, -1) if made[n].text == "from"):
+        words = [token.text for token in made]
+        size, sided = link_at(made, at + 1), _side(words, at)
+        place = LINKS.get(tuple(words[at + 1 : at + 1 + size])) if link_at(made, at) == 1 else None
+        near = place is not None and not place.finite and (place.manner in ("under", "between") or (
+            place.manner == "place" and place.kind in LATERAL_KINDS))  # fmt: skip
+        of = at + (sided or 1 + size)
+        asks = (known_verb(words[n]) for n in range(at - 1) if not n or words[n - 1] in _JOINING)
+        if not (sided or near) or words[of] not in _LEADS or not any(asks):
+            continue
+        end = next(n for n in range(of + 1, len(words)) if made[n].mark or link_at(made, n) or words[n] in _ENDING)
+        found = nouns.match([words[end - 1]]) if sided else None
+        level = found is not None and nouns.of_class(found.noun, lexicon.LEVEL)
+        # What is on the left side of a table is on it.
+        where = _SIDES[words[at + 2]] if sided else words[at + 1 : of]
+        where = ("on", "the", words[at + 2], "side", "of") if level else where
+        start = at - (words[at - 1] in ("out", "up", "off"))
+        told = [] if words[start - 1] in lexicon.PRONOUNS else ["that", "is"]
+        # "From the front of the plate to the back of it"
+        back = _side(words, end) if sided and not level and words[end + 2 : end + 3] in (["back"], ["rear"]) else 0
+        rest = [*([replace(made[end], text="behind")] if back else []), *made[end + back :]]
+        made[start:] = [*(replace(made[at], text=word) for word in (*told, *where)), *made[of:end], *rest]
+    return made
 
 
 def _side(words: list[str], at: int) -> int:

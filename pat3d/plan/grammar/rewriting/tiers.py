@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.rewriting.instructions import VERBS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE, LINKS
@@ -98,7 +97,7 @@ def _unnamed(words: Sequence[str], nouns: Nouns) -> tuple[str, ...]:
         (match := nouns.match([word])) is not None and match.noun in _STOREYED for word in words if word != "shelf"
     )
     owned = owned or "shelves" in words
-    return ("shelf",) if len(told & {*lexicon.LEVELS, "middle"}) > 1 and not owned and words[0] not in VERBS else ()
+    return ("shelf",) if len(told & {*lexicon.LEVELS, "middle"}) > 1 and not owned else ()
 
 
 def _on_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

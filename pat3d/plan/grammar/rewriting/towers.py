@@ -22,12 +22,11 @@ _UPWARDS = (("from", "bottom", "to", "top"), ("from", "the", "bottom", "to", "th
 _DOWNWARDS = (("from", "top", "to", "bottom"), ("from", "the", "top", "to", "the", "bottom"), ("top", "to", "bottom"),
               ("from", "the", "top", "down"), ("from", "top", "down"))  # fmt: skip
 _LEVELS: dict[tuple[str, ...], int] = {
-    **dict.fromkeys(
-        [("at", "the", "bottom"), ("on", "the", "bottom"), ("at", "its", "base"), ("at", "the", "base")], 0
-    ),
+    **dict.fromkeys([("at", "the", "bottom"), ("on", "the", "bottom"), ("on", "bottom"), ("at", "bottom"),
+                     ("at", "its", "base"), ("at", "the", "base")], 0),
     **dict.fromkeys([("in", "the", "middle"), ("in", "between"), ("in", "the", "centre"), ("in", "the", "center")], 50),
-    **dict.fromkeys([("at", "the", "top"), ("on", "top"), ("on", "the", "top")], 100),
-}
+    **dict.fromkeys([("at", "the", "top"), ("on", "top"), ("on", "the", "top"), ("at", "top")], 100),
+}  # fmt: skip
 _PLAIN = {
     **{word: plain for word, (plain, _) in lexicon.SUPERLATIVES.items() if word.endswith("est")},
     "smallest": "smaller", "largest": "larger", "biggest": "bigger",
@@ -56,6 +55,8 @@ def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         return list(tokens)
     intro, parts = _stacked(found[0]), found[1]
     said = [token.text for token in intro]
+    if to_stack := _to_be_stacked(intro, parts, nouns):
+        return _one_on_another(tokens, to_stack)
     if {"the", "and"} & set(said) or any(word in FINITE for word in said):
         # What is there already is to be stacked, or is listed before.
         return list(tokens)
@@ -141,6 +142,19 @@ def _asked_for(words: list[str]) -> bool:
     asked = words[1:] if words[:1] == ["please"] else words
     counted = any(word in lexicon.NUMBERS and word != "a" for word in asked)
     return len(asked) > 1 and asked[0] in _BUILDING and asked[-1] in _BUILT and not counted
+
+
+def _to_be_stacked(intro: list[Token], parts: Sequence[Sequence[Token]], nouns: Nouns) -> list[list[Token]] | None:
+    """The `parts` of "stack the bowls, red at the bottom and blue on top" as "the red bowl", "the blue bowl"."""
+    words = [token.text for token in intro]
+    first = 1 + (words[:1] == ["please"])
+    led = words[first - 1 : first] in (["stack"], ["pile"]) and words[first : first + 1] in (["the"], ["these"])
+    noun, rest, count = _intro(intro[first:], nouns) if led else (None, [], 0)
+    ones = all(_headless(part, nouns) or (noun and part[-1].text == noun.text) for part in parts)
+    if noun is None or rest or count > len(parts) or "and" in words or not ones:
+        return None
+    named = (_named(part, noun, _look(intro[first:], noun), nouns) for part in parts)
+    return [[replace(part[0], text="the"), *part[1:]] for part in named if part]
 
 
 def _one_on_another(tokens: Sequence[Token], parts: Sequence[Sequence[Token]]) -> list[Token]:
@@ -256,6 +270,7 @@ def _levelled(
 ) -> tuple[list[Token], list[list[Token]]] | None:
     """What stands before "the red one at the bottom, the blue one on top", and these, the lowest first."""
     end = len(tokens) - 1
+    levels_said = _LEVELS | ({("below",): 0, ("above",): 100} if "stack" in words[:2] else {})
     ranked: list[tuple[int, list[Token]]] = []
     starts = [0, *(at + 1 for at, word in enumerate(words[:-1]) if word in _JOINTS)]
     first = end
@@ -265,10 +280,10 @@ def _levelled(
         if not part:
             continue
         key = next(
-            (key for key in _LEVELS if tuple(words[stop - len(key) : stop]) == key and len(part) > len(key)), None
+            (key for key in levels_said if tuple(words[stop - len(key) : stop]) == key and len(part) > len(key)), None
         )
         if key is not None:
-            ranked.append((_LEVELS[key], part[: -len(key)]))
+            ranked.append((levels_said[key], part[: -len(key)]))
             first = min(first, start)
         elif ranked and (words[start - 1] == "then" or (_headless(part, nouns) and stop < end)):
             # "red at the bottom, then blue, green and white on top"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.words.generics import GENERICS as GENERICS
 from pat3d.plan.grammar.words.generics import MASS_GENERICS as MASS_GENERICS
+from pat3d.plan.grammar.words.parts import ENDS as ENDS
 from pat3d.plan.grammar.words.parts import PARTS as PARTS
 from pat3d.plan.holders import HOUSING as HOUSING
 

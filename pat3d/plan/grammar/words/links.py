@@ -89,9 +89,9 @@ def _table() -> dict[tuple[str, ...], Link]:
         "further from", "farther from",
         "furthest away from", "farthest away from", "further away from", "farther away from")  # fmt: skip
     add(Link(manner="source", kind="on"), "from")
-    add(Link(manner="source", kind="on", said="off"), "off", "off of", "from the top of", "from above",
+    add(Link(manner="source", kind="on", said="off"), "off", "off of", "from the top of", "from above", "from over",
         "from on top of")  # fmt: skip
-    add(Link(manner="source", kind="in"), "out of", "from inside")
+    add(Link(manner="source", kind="in"), "out of", "from inside", "from within", "out from")
     add(Link(manner="source", kind="next_to"), "from the base of", "from the foot of", "from beside", "from next to")
     add(Link(manner="goal", kind="on"), "to", "back to", "up to", "over to")
     add(Link(manner="goal", kind="on", said="onto"), "onto", "back onto", "to the top of")

@@ -13,6 +13,8 @@ _NAMES = """
 """
 PARTS = frozenset(_NAMES.split())
 """Their names, wherever they stand."""
+ENDS = frozenset({"edge", "corner", "end", "tip", "half", "side", "rim"})
+"""Parts to which nothing is related: the whole is taken."""
 _HAD = """
     antenna antennae antler badge backrest band bezel binding border buckle bumper chimney clasp claw collar crest cuff
     drawstring eyelet fang feather filament flame fretboard fringe gemstone grip hair headlight headrest heel
