@@ -9,7 +9,7 @@ from pat3d.scene.model import Relation, Scene, SceneObject
 
 def door_scene(of: str, state: str = "", *, scale: float = 1.0, inside: str = "") -> Scene:
     """`of` (microwave, cabinet, fridge) with its door, whose `state` is "open " or none, and with `inside` in it."""
-    assets = {of: make(f"hinged {of}", scale=scale), "door": make(f"{state}{of} door", scale=scale)}
+    assets = {of: make(f"hinged {of}", scale=scale), "door": make(f"{state}hinged {of} door", scale=scale)}
     relations = [Relation(child="door", kind="in", parent=of)]
     if inside:
         assets[inside] = make(inside)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 CASES = {f"hinged {of}": of for of in ("microwave", "cabinet", "fridge")}
 """Nouns of what has a door that turns, and what they are."""
-DOORS = {f"{state}{of} door": of for of in CASES.values() for state in ("", "open ")}
+DOORS = {f"{state}{case} door": of for case, of in CASES.items() for state in ("", "open ")}
 """Nouns of doors, shut and open, and what they are of."""
 OPEN = 90.0
 """Angle of an open door [degrees]."""

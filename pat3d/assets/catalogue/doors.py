@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 from pat3d.assets.catalogue.joinery import BLACK, Range, drawn, legs, shelf_top, span
 from pat3d.assets.catalogue.open_fronts import hollow
-from pat3d.assets.catalogue.registry import Build, Style, entry
+from pat3d.assets.catalogue.registry import RGB, Build, Style, entry
 from pat3d.assets.shapes import Shape, box, cylinder, join
 
 LEAF = 0.02
 """Thickness of a door [m]."""
 PIN, PIN_LENGTH = 0.005, 0.012
 """Radius of a pin, and what of it is in its socket [m]."""
-PLAY = 0.0015
+PLAY = 0.001
 """Air on each side of a pin in its socket [m]."""
 COLLAR = 0.007
 """Radius of the ring on which a door stands, and of its edge around the axis: its corners turn clear of the front [m]."""
@@ -32,6 +32,7 @@ REACH, BAR = 0.06, 0.012
 """Between door and bar of a handle, where fingers go, and the bar's thickness [m]."""
 HALF_GRIP = 0.055
 """Half the length of a bar [m]."""
+_GLASS: RGB = (24, 26, 30)
 _FRAME = 0.016
 """Of a bracket around the axis [m]: to each side, and before it."""
 
@@ -50,6 +51,8 @@ class Doorway:
     """Height of the handle."""
     mass: float
     """Of the door [kg]."""
+    pane: bool = False
+    """Whether the door has a window."""
 
     @property
     def front(self) -> float:
@@ -78,7 +81,7 @@ class Doorway:
 
 
 DOORWAYS = {
-    "microwave": Doorway(size=(0.48, 0.38, 0.28), across=(-0.24, 0.115), up=(0.026, 0.266), handle=0.17, mass=0.9),
+    "microwave": Doorway(size=(0.48, 0.38, 0.28), across=(-0.24, 0.115), up=(0.026, 0.266), handle=0.17, mass=0.9, pane=True),
     "cabinet": Doorway(size=(0.4, 0.4, 0.56), across=(-0.2, 0.2), up=(0.054, 0.546), handle=0.38, mass=1.8),
     "fridge": Doorway(size=(0.44, 0.5, 0.74), across=(-0.22, 0.22), up=(0.064, 0.726), handle=0.5, mass=3.0),
 }
@@ -111,15 +114,16 @@ def _door(style: Style, way: Doorway) -> Build:
         for x in (way.grip - HALF_GRIP, way.grip + HALF_GRIP)
     ]
     bar = span((way.grip - HALF_GRIP, way.grip + HALF_GRIP), (out - BAR, out), up)
+    rim = 0.03
+    pane = span((rim, way.width - rim), (-LEAF, LEAF), (low + rim, low + height - rim))
     return Build(
         parts=((join(leaf, ring, *pins), style.colour()), (join(bar, *ends), style.colour(1))),
-        regions=(),
+        paint=((drawn(pane), _GLASS),) if way.pane else (),
         mass=way.mass,
     )
 
 
-@entry("hinged microwave", family="appliances", material="steel", colours=("black", "white", "steel", "red"),
-       accents=("gray",))  # fmt: skip
+@entry("hinged microwave", family="appliances", material="steel", colours=("steel",), accents=("gray",))
 def hinged_microwave(style: Style) -> Build:
     """A microwave oven without its door, with sockets for one at the left."""
     way = DOORWAYS["microwave"]
@@ -138,7 +142,7 @@ def hinged_microwave(style: Style) -> Build:
     )
 
 
-@entry("hinged cabinet", family="storage", material="wood", colours=("wood", "brown", "tan"))
+@entry("hinged cabinet", family="storage", material="wood", colours=("wood",))
 def hinged_cabinet(style: Style) -> Build:
     """A small cabinet with a board inside, without its door, with sockets for one at the left."""
     way = DOORWAYS["cabinet"]
@@ -153,8 +157,7 @@ def hinged_cabinet(style: Style) -> Build:
     )
 
 
-@entry("hinged fridge", family="appliances", material="steel", colours=("white", "steel", "mint", "red"),
-       accents=("steel",))  # fmt: skip
+@entry("hinged fridge", family="appliances", material="steel", colours=("white",), accents=("steel",))
 def hinged_fridge(style: Style) -> Build:
     """A small fridge with two boards, without its door, with sockets for one at the left."""
     way = DOORWAYS["fridge"]
@@ -170,41 +173,37 @@ def hinged_fridge(style: Style) -> Build:
     )
 
 
-@entry("microwave door", family="appliances", material="steel", colours=("black", "white", "steel", "red"),
-       accents=("steel",))  # fmt: skip
+@entry("hinged microwave door", family="appliances", material="steel", colours=("steel",), accents=("steel",))
 def microwave_door(style: Style) -> Build:
     """The door of a microwave oven, which is shut."""
     return _door(style, DOORWAYS["microwave"])
 
 
-@entry("open microwave door", family="appliances", material="steel", colours=("black", "white", "steel", "red"),
-       accents=("steel",))  # fmt: skip
+@entry("open hinged microwave door", family="appliances", material="steel", colours=("steel",), accents=("steel",))
 def open_microwave_door(style: Style) -> Build:
     """The same, which is open."""
     return _door(style, DOORWAYS["microwave"])
 
 
-@entry("cabinet door", family="storage", material="wood", colours=("wood", "brown", "tan"), accents=("black",))
+@entry("hinged cabinet door", family="storage", material="wood", colours=("wood",), accents=("black",))
 def cabinet_door(style: Style) -> Build:
     """The door of a cabinet, which is shut."""
     return _door(style, DOORWAYS["cabinet"])
 
 
-@entry("open cabinet door", family="storage", material="wood", colours=("wood", "brown", "tan"), accents=("black",))
+@entry("open hinged cabinet door", family="storage", material="wood", colours=("wood",), accents=("black",))
 def open_cabinet_door(style: Style) -> Build:
     """The same, which is open."""
     return _door(style, DOORWAYS["cabinet"])
 
 
-@entry("fridge door", family="appliances", material="steel", colours=("white", "steel", "mint", "red"),
-       accents=("steel",))  # fmt: skip
+@entry("hinged fridge door", family="appliances", material="steel", colours=("white",), accents=("steel",))
 def fridge_door(style: Style) -> Build:
     """The door of a fridge, which is shut."""
     return _door(style, DOORWAYS["fridge"])
 
 
-@entry("open fridge door", family="appliances", material="steel", colours=("white", "steel", "mint", "red"),
-       accents=("steel",))  # fmt: skip
+@entry("open hinged fridge door", family="appliances", material="steel", colours=("white",), accents=("steel",))
 def open_fridge_door(style: Style) -> Build:
     """The same, which is open."""
     return _door(style, DOORWAYS["fridge"])
