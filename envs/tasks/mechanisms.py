@@ -42,6 +42,8 @@ class Mechanism(ABC):
     """Of that bar [m]."""
     verbs: Mapping[str, str]
     """What opening and closing it are told as, by the kind of task."""
+    wanted: float
+    """The share to which the scripted policy opens it."""
     opened: float
     """The share of the whole from which on it is open."""
     most: float
@@ -66,6 +68,10 @@ class Mechanism(ABC):
     def at_handle(self, kind: str) -> Array:
         """Where fingers begin to open or close it [m], in its frame, shape (3,): behind the bar, or before it."""
         return self.bar + [0.0, self.thick + BEHIND if kind == "open" else -AWAY, 0.0]
+
+    def goal(self, kind: str) -> float:
+        """To where the scripted policy moves it to open or close it, in the unit of its way."""
+        return self.wanted * self.whole if kind == "open" else 0.0
 
     def out_in(self, scene: Scene, name: str) -> float:
         """By how much it is open in `scene`."""
@@ -155,6 +161,7 @@ def _rail(scene: Scene, name: str, cabinet: str) -> Rail:
         bar=np.array([0.0, low[1], scale * GRIP * BOX[2]]),
         thick=scale * BAR,
         verbs={"open": "open", "close": "close"},
+        wanted=0.85,
         opened=0.6,
         most=1.5,
         shut=drawers.shut_at(drawer.asset, scene[cabinet].asset),
@@ -174,6 +181,8 @@ def _turning(door: Asset, case: Asset, name: str) -> Turning:
         bar=np.array([hinge.pivot[0] + scale * way.grip, low[1], low[2] + scale * way.bar]),
         thick=scale * BAR,
         verbs={"open": "open door", "close": "close door"},
+        # Further than it counts, and no further than a wrist turns.
+        wanted=0.72,
         opened=0.6,
         most=2.0,
         hinge=hinge,

@@ -25,9 +25,6 @@ if TYPE_CHECKING:
 SHUT = 0.12
 """Share of how far an open one of a scene is open: less is shut."""
 
-WANTED = {"open": 0.85, "close": 0.0}
-"""The share to which the scripted policy moves it."""
-
 LEVEL = 0.98
 """Least cosine between its vertical now and at the start."""
 
@@ -69,13 +66,13 @@ class _Moving(Task):
         mechanism = mechanism_of(scene, self.target)
         out, holder = mechanism.out_in(scene, self.target), scene[mechanism.holder].pose
         # An earlier step of a chain brings it to where this one begins.
-        before = WANTED["close" if self.kind == "open" else "open"] * mechanism.whole
+        before, goal = mechanism.goal("close" if self.kind == "open" else "open"), mechanism.goal(self.kind)
         begin = before if self._done(out / mechanism.whole, mechanism.opened) else out
         visits, swept = [], list[tuple[float, float]]()
         low, high = scene[self.target].asset.bounds
         outline = np.array([[x, y, 0.0] for x in np.linspace(low[0], high[0], 5) for y in (low[1], high[1])])
         for share in VISITED:
-            by = begin + share * (WANTED[self.kind] * mechanism.whole - begin) - out
+            by = begin + share * (goal - begin) - out
             position, rotation = mechanism.moved(*mechanism.within(scene, self.target), by)
             at = holder.apply((rotation @ mechanism.at_handle(self.kind) + position)[None])[0]
             front = holder.rotation @ rotation @ [0.0, -1.0, 0.0]
@@ -104,9 +101,7 @@ class _Moving(Task):
         now = out_now(state, self.target, mechanism)
         if self._done(now / mechanism.whole, mechanism.opened) or self.spec in done:
             return None
-        return Opening(
-            name=self.target, spec=self.spec, by=WANTED[self.kind] * mechanism.whole - now, mechanism=mechanism
-        )
+        return Opening(name=self.target, spec=self.spec, by=mechanism.goal(self.kind) - now, mechanism=mechanism)
 
     def judge(self, states: States) -> Judge:
         return OpeningJudge(states, self.target, self.kind)
@@ -145,9 +140,7 @@ class OpeningJudge(Judge):
         self._targets = np.full(states.count, self._target)
         self._first = mechanism.out_in(scene, name)
         middle = scene[name].asset.mass_properties.centre_of_mass
-        position, rotation = mechanism.moved(
-            *mechanism.within(scene, name), WANTED[kind] * mechanism.whole - self._first
-        )
+        position, rotation = mechanism.moved(*mechanism.within(scene, name), mechanism.goal(kind) - self._first)
         self._goal = position + rotation @ np.array(middle)
         """Of its centre of mass in the frame of what holds it [m]."""
 
@@ -170,7 +163,7 @@ class OpeningJudge(Judge):
         done = self.timer >= REST_SECONDS - 1e-9
         grip = now.xpos[:, self._body] + turned @ self._handle
         near = 1.0 - np.tanh(np.linalg.norm(now.sites[:, now.hand] - grip, axis=1) / predicates.NEAR_HAND)
-        goal = WANTED[self._kind] * mechanism.whole
+        goal = mechanism.goal(self._kind)
         covered = np.clip((out - self._first) / (goal - self._first), 0.0, 1.0)
         progress = (0.1 * np.where(there, 1.0, near) + 0.8 * covered + 0.1 * holds) * level
         return Verdicts(

@@ -58,6 +58,11 @@ class Pull:
     """Of the hand on its way there [m]."""
 
     @property
+    def begin(self) -> float:
+        """By how much the moved body is open at the beginning, in the unit of its way."""
+        return float(self.mechanism.out(self.position[None], self.rotation[None])[0])
+
+    @property
     def above(self) -> Array:
         """Position of the hand over where it begins [m], shape (3,)."""
         return self.hand(0.0)[0] + [0.0, 0.0, HANDLE_ABOVE]

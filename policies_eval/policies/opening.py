@@ -71,10 +71,9 @@ def move_along(env: Any, opening: Opening) -> Actions:
 def _along(env: Any, servo: Servo, opening: Opening, pull: Pull) -> Actions:
     """Along the way of a pull until the drawer or door has come far enough."""
     state, lever, sign = env.simulation.state, pull.mechanism.lever, float(np.sign(pull.by))
-    begin = out_now(state, opening.name, pull.mechanism)
     last, ahead = 0.0, LEAD
     for _ in range(4 * PATIENCE):
-        done = sign * lever * (out_now(state, opening.name, pull.mechanism) - begin)
+        done = sign * lever * (out_now(state, opening.name, pull.mechanism) - pull.begin)
         if done > lever * abs(pull.by) - ARRIVED:
             return
         ahead = min(ahead + HARDER, HARDEST) if done - last < MOVING else max(LEAD, 0.9 * ahead)
