@@ -12,8 +12,8 @@ from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Numbers
 from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.beside_moved import BesideMoved, in_place
-from pat3d.envs.tasks.opening import Close, Open
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
+from pat3d.envs.tasks.opening import Close, Open
 from pat3d.envs.tasks.paraphrase import in_turn
 from pat3d.envs.tasks.task import Goal, Judge, Opening, Task, Verdicts, rests_upon, steps_for
 from pat3d.errors import TaskError
@@ -89,7 +89,8 @@ class Chain(Task):
     def needs(self, scene: Scene) -> Needs:
         needs = [step.needs(scene) for step in self.turns]
         side = next((one.side for one in needs if one.side is not None), None)
-        visits = dict.fromkeys((point, side if front is None else front) for one in needs for point, front in one.visits)
+        visits = [(point, side if front is None else front) for one in needs for point, front in one.visits]
+        visits = list(dict.fromkeys(visits))
         return Needs(
             grasp=tuple(dict.fromkeys(name for one in needs for name in one.grasp)),
             visit=tuple(point for point, _ in visits),

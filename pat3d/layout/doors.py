@@ -11,7 +11,6 @@ import numpy as np
 from pat3d.errors import LayoutError
 from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.bodies import Array, Placed
-from pat3d.layout.drop import clear
 from pat3d.layout.group import Group
 from pat3d.scene.asset import Asset
 
@@ -28,8 +27,6 @@ HAND = 0.08
 """Before a door and its handle, for a hand [m]."""
 _NEAR, _UPRIGHT = 0.005, math.cos(math.radians(3.0))
 """Of the axis of a door from that of its sockets [m], and the cosine between its vertical and that of its case."""
-_AIR = 5e-4
-"""Least distance that a door keeps from its sockets [m]."""
 
 
 class Hinge(NamedTuple):

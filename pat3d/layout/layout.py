@@ -211,8 +211,8 @@ class _Arranger:
         root = self.bodies[name].at(rotation, np.zeros(3))
         group = Group((root,))
         kids = self.children[name]
-        drawn, hung = ([kid for kid in kids if self.kinds[kid] == "in" and moves(self.bodies[kid].asset, root.body.asset)]
-                       for moves in (slides, turns))  # fmt: skip
+        own = [(kid, self.bodies[kid].asset) for kid in kids if self.kinds[kid] == "in"]
+        drawn, hung = ([kid for kid, asset in own if moves(asset, root.body.asset)] for moves in (slides, turns))
         kids = [kid for kid in kids if kid not in (*drawn, *hung)]
         column, within = column_of(root), [kid for kid in kids if self.kinds[kid] == "in"]
         inside = within if column is not None else []

@@ -33,16 +33,17 @@ def with_doors(plan: ScenePlan) -> ScenePlan:
             continue
         case = HINGED[obj.noun]
         state = "open " if moved[obj.name] == "close" else ""
-        objects += [replace(obj, noun=case, extent=None),
-                    PlannedObject(name=doors[obj.name], noun=f"{state}{case} door", phrase=f"{obj.phrase.removesuffix(' door')} door",
-                                  colours=obj.colours, material=obj.material, scale=obj.scale)]  # fmt: skip
+        door = replace(obj, name=doors[obj.name], noun=f"{state}{case} door", extent=None,
+                       phrase=f"{obj.phrase.removesuffix(' door')} door")  # fmt: skip
+        objects += [replace(obj, noun=case, extent=None), door]
     told = [":".join([kind, *(doors.get(name, name) if kind in SLIDING else name for name in names)])
             for kind, *names in steps]  # fmt: skip
+    sized = [f'not modelled: the size of "{obj.phrase}".' for obj in cases.values() if obj.extent is not None]
     untrue = {_OPENED.format(phrase=obj.phrase) for obj in cases.values()}
     return replace(
         plan,
         objects=tuple(objects),
         relations=(*plan.relations, *(Relation(child=doors[name], kind="in", parent=name) for name in cases)),
         task=f"{CHAIN}:{AND_THEN.join(told)}" if len(told) > 1 else told[0],
-        notes=tuple(note for note in plan.notes if note not in untrue and not _WHOLE.fullmatch(note)),
+        notes=(*(note for note in plan.notes if note not in untrue and not _WHOLE.fullmatch(note)), *sized),
     )

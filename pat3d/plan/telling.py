@@ -36,8 +36,8 @@ class _Teller(Names):
         """Everything in each pyramid, its lowest row first, by the objects of that row."""
 
     def told(self) -> str:
-        sentences = [*self._supports(), *self._doors(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]
-        sentences += [*self._sizes(), *self._task()]
+        sentences = [*self._supports(), *self._doors(), *self._rows(), *self._arranged(), *self._laterals()]
+        sentences += [*self._postures(), *self._sizes(), *self._task()]
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
 
     def _sizes(self) -> list[str]:

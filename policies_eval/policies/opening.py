@@ -1,4 +1,4 @@
-"""What the scripted policy does to open or shut a drawer or a door: one way of closed fingers, watched on what moves."""
+"""What the scripted policy does to open or shut a drawer or a door: one way of closed fingers, until it is there."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ PIN, PIN_LENGTH = 0.005, 0.012
 PLAY = 0.001
 """Air on each side of a pin in its socket [m]."""
 COLLAR = 0.007
-"""Radius of the ring on which a door stands, and of its edge around the axis: its corners turn clear of the front [m]."""
+"""Radius of the ring on which a door stands, and of its edge around the axis, whose corners clear the front [m]."""
 RAISED = 0.004
 """Of a door over the bracket of its lower socket and under that of the upper one [m]."""
 AIR = 0.004
@@ -81,7 +81,9 @@ class Doorway:
 
 
 DOORWAYS = {
-    "microwave": Doorway(size=(0.48, 0.38, 0.28), across=(-0.24, 0.115), up=(0.026, 0.266), handle=0.17, mass=0.9, pane=True),
+    "microwave": Doorway(
+        size=(0.48, 0.38, 0.28), across=(-0.24, 0.115), up=(0.026, 0.266), handle=0.17, mass=0.9, pane=True
+    ),
     "cabinet": Doorway(size=(0.4, 0.4, 0.56), across=(-0.2, 0.2), up=(0.054, 0.546), handle=0.38, mass=1.8),
     "fridge": Doorway(size=(0.44, 0.5, 0.74), across=(-0.22, 0.22), up=(0.064, 0.726), handle=0.5, mass=3.0),
 }

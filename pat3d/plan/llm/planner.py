@@ -213,7 +213,7 @@ def _checked(answer: Answer) -> Answer:
     if plan.task is not None and not _is_task(plan.task, names):
         faults.append(
             f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, beside:A:left_of:B, unload:A, sort, '
-            "open:DRAWER, close:DRAWER or chain:STEP:then:STEP, with names of objects."
+            "open:OBJECT, close:OBJECT or chain:STEP:then:STEP, with names of objects."
         )
     if faults:
         raise AnswerError("\n".join(faults))

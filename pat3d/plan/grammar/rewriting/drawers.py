@@ -53,7 +53,7 @@ def drawer_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def drawers_moved(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "pull the drawer open" and "pull out the drawer" as "open the drawer", and so of doors, and closing."""
+    """`tokens` with "pull the drawer open" and "pull out the drawer" as "open the drawer", as of doors and closing."""
     words = [token.text for token in tokens]
     for at in (at for at, word in enumerate(words) if word in {*_PULLING, *_PUSHING}):
         end = next((n for n in range(at + 2, min(at + _FAR + 1, len(words) - 1)) if words[n] in ("drawer", "door")), 0)
