@@ -174,15 +174,14 @@ class _Reach:
     tip: float
     closing_axis: Sequence[float]
     grasps: Mapping[str, list[Grasp]]
-    visit: Sequence[tuple[float, float, float]]
-    side: float | None = None
+    visits: Sequence[tuple[tuple[float, float, float], float | None]]
     """See `Needs`."""
 
     @staticmethod
     def of(scene: Scene, robot: str, needs: Needs) -> _Reach:
         gripper = measure_gripper(robot)
         grasps = grasps_of(scene, needs.grasp, robot, put=bool(needs.visit), cleared=needs.cleared)
-        return _Reach(arm_kinematics(robot), gripper.tip, gripper.closing_axis, grasps, needs.visit, needs.side)
+        return _Reach(arm_kinematics(robot), gripper.tip, gripper.closing_axis, grasps, needs.visits)
 
     def __post_init__(self) -> None:
         self.standing = _standing(self.arm)
@@ -200,7 +199,7 @@ class _Reach:
                 known = self._farthest.get(name, (math.inf, 0.0, 0.0))
                 self._farthest[name] = min(known, (math.hypot(aside, up), aside, up))
                 return None
-        there = all(_reaches_point(self.arm, frame, np.array(point), self.tip, self.side) for point in self.visit)
+        there = all(_reaches_point(self.arm, frame, np.array(point), self.tip, side) for point, side in self.visits)
         return reached if there else None
 
     def refusal(self, robot: str, site: Site, room: bool) -> TaskError:

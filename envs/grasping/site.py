@@ -111,6 +111,8 @@ class Site:
     visit: tuple[tuple[float, float, float], ...]
     room: tuple[tuple[float, float], ...]
     """What a workbench has to reach beside the objects [m]."""
+    swept: tuple[tuple[float, float], ...]
+    """See `Needs`."""
     directions: tuple[float, ...]
     """From which the robot may face the work [degrees], the preferred one first."""
 
@@ -146,6 +148,7 @@ class Site:
             work=work,
             visit=needs.visit,
             room=needs.room,
+            swept=needs.swept,
             directions=_directions(needs),
         )
 
@@ -174,7 +177,7 @@ class Site:
             beside = np.hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
             if beside < radius and low[2] < height + 0.5:
                 return False
-        return True
+        return all(math.dist((x, y), point) >= radius for point in self.swept)
 
     def pairs(self, left: Standing, right: Standing, pair: Pair) -> Iterator[tuple[tuple[Frame, Frame], float]]:
         """Where two arms may stand, the left one first, and where the cameras are as seen from the work [rad].

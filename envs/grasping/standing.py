@@ -21,6 +21,8 @@ class Needs:
     """Points [m] that the fingertips have to get to, pointing down."""
     room: tuple[tuple[float, float], ...] = ()
     """Points seen from above [m] that a workbench has to reach, though nothing stands there yet."""
+    swept: tuple[tuple[float, float], ...] = ()
+    """Points seen from above [m] where something moves, beside which no base has room."""
     together: str = ""
     """"wide" or "near" for two hands that take the object at once, far from one another or not; "" for one hand."""
     cleared: bool = False
@@ -30,6 +32,13 @@ class Needs:
     side: float | None = None
     """Where the robot has to stand as seen from its work [rad], about z from +x, its fingers across that at the points
     to visit; None for wherever there is room."""
+    fronts: tuple[float, ...] = ()
+    """The same of the fingers at each of the points to visit, where it is not `side` at all of them."""
+
+    @property
+    def visits(self) -> tuple[tuple[tuple[float, float, float], float | None], ...]:
+        """The points to visit, each with what the fingers are across there."""
+        return tuple(zip(self.visit, self.fronts or (self.side,) * len(self.visit), strict=True))
 
 
 @dataclass(frozen=True, kw_only=True)

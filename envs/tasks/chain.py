@@ -12,10 +12,10 @@ from pat3d.envs.grasping.placement import Needs
 from pat3d.envs.physics.snapshot import Array, Numbers
 from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.beside_moved import BesideMoved, in_place
-from pat3d.envs.tasks.drawers import Close, Open
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
+from pat3d.envs.tasks.opening import Close, Open
 from pat3d.envs.tasks.paraphrase import in_turn
-from pat3d.envs.tasks.task import Goal, Judge, Slide, Task, Verdicts, rests_upon, steps_for
+from pat3d.envs.tasks.task import Goal, Judge, Opening, Task, Verdicts, rests_upon, steps_for
 from pat3d.errors import TaskError
 from pat3d.scene.model import Scene
 from pat3d.scene.task_spec import AND_THEN, CHAIN, STEPS
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 class Chain(Task):
     """Put, stack, or lift and put back one object after the other, in this order; the last step may pick one up.
 
-    Between them drawers may be opened and shut, one of them both.
+    Between them drawers and doors may be opened and shut, one of them both.
     """
 
     kind: ClassVar[str] = CHAIN
@@ -88,13 +88,18 @@ class Chain(Task):
 
     def needs(self, scene: Scene) -> Needs:
         needs = [step.needs(scene) for step in self.turns]
+        side = next((one.side for one in needs if one.side is not None), None)
+        visits = [(point, side if front is None else front) for one in needs for point, front in one.visits]
+        visits = list(dict.fromkeys(visits))
         return Needs(
             grasp=tuple(dict.fromkeys(name for one in needs for name in one.grasp)),
-            visit=tuple(dict.fromkeys(point for one in needs for point in one.visit)),
+            visit=tuple(point for point, _ in visits),
+            fronts=tuple(front for _, front in visits if front is not None),
             room=tuple(dict.fromkeys(point for one in needs for point in one.room)),
+            swept=tuple(dict.fromkeys(point for one in needs for point in one.swept)),
             cleared=True,
             push=tuple(dict.fromkeys(name for one in needs for name in one.push)),
-            side=next((one.side for one in needs if one.side is not None), None),
+            side=side,
         )
 
     def horizon(self, scene: Scene, control_freq: float) -> int:
@@ -103,10 +108,10 @@ class Chain(Task):
     def goals(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> list[Goal]:
         return next((goals for step in self.turns if (goals := step.goals(state, graspable, done))), [])
 
-    def slide(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Slide | None:
+    def opening(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Opening | None:
         for step in self.turns:
-            if (slide := step.slide(state, graspable, done)) is not None:
-                return slide
+            if (opening := step.opening(state, graspable, done)) is not None:
+                return opening
             if step.goals(state, graspable, done):
                 return None
         return None

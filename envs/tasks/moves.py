@@ -253,15 +253,15 @@ class Planner:
         bottom = float(state.centre(name)[2] - state.points(name)[:, 2].min())
         return spot + [0.0, 0.0, bottom + DROP_HEIGHT]
 
-    def passing(self, start: Array, end: Array, radius: float, name: str) -> float:
-        """Height of the highest thing [m] within `radius` [m] of the way from one point to another, but for `name`."""
+    def passing(self, start: Array, end: Array, radius: float, *names: str) -> float:
+        """Height of the highest thing [m] within `radius` [m] of the way from one point to another, but for `names`."""
         state = self._env.simulation.state
         along = (end - start)[:2]
         steps = np.linspace(0.0, 1.0, 2 + int(np.linalg.norm(along) / 0.02))[:, None]
         points = start[:2] + steps * along
         highest = self._env.placement.surface
         for obj in self._env.scene.objects:
-            if obj.name != name:
+            if obj.name not in names:
                 cloud = state.points(obj.name)
                 low, high = cloud[:, :2].min(axis=0), cloud[:, :2].max(axis=0)
                 away = np.linalg.norm(np.maximum(np.maximum(low - points, points - high), 0.0), axis=1)

@@ -102,6 +102,20 @@ _CLOSE = (
     "slide {it} back in until it is closed",
 )
 
+_OPEN_DOOR = (
+    "open {it}",
+    "pull {it} open",
+    "swing {it} open",
+    "open {it} by its handle and leave it open",
+)
+
+_CLOSE_DOOR = (
+    "close {it}",
+    "push {it} shut",
+    "shut {it}",
+    "swing {it} to until it is closed",
+)
+
 _CARRY = (
     "lift {it}{source} with both hands and keep it level",
     "take {it}{source} with both arms and hold it up without tilting it",
@@ -129,6 +143,8 @@ WORDINGS = {
     "push": _PUSH,
     "open": _OPEN,
     "close": _CLOSE,
+    "open door": _OPEN_DOOR,
+    "close door": _CLOSE_DOOR,
     "carry": _CARRY,
     "handover": _HANDOVER,
 }

@@ -9,9 +9,9 @@ from typing import Any
 from pat3d.envs.tasks.arrange import Retrieve, Sort, Unload
 from pat3d.envs.tasks.beside import Beside
 from pat3d.envs.tasks.chain import Chain
-from pat3d.envs.tasks.drawers import Close, Open
 from pat3d.envs.tasks.goals import Rearrange, rearrangement
 from pat3d.envs.tasks.manipulate import Lift, Pick, Place, Stack
+from pat3d.envs.tasks.opening import Close, Open
 from pat3d.envs.tasks.push import Push, push_task
 from pat3d.envs.tasks.task import Task, split
 from pat3d.envs.tasks.together import Carry, HandOver

@@ -16,9 +16,10 @@ from pat3d.envs.tasks.moves import Array, Move, Planner
 from pat3d.envs.tasks.pulls import PullPlanner
 from pat3d.envs.tasks.push import Push
 from pat3d.envs.tasks.strokes import StrokePlanner
-from pat3d.envs.tasks.task import Task
+from pat3d.envs.tasks.task import Opening, Task
 from pat3d.envs.tasks.together import Carry, HandOver
 from pat3d.errors import EnvironmentSetupError, TaskError
+from pat3d.geometry.pose import Pose
 from pat3d.scene.model import GROUND, Scene
 
 SINK = 2e-4
@@ -83,10 +84,10 @@ def rehearsed(work: Workplace) -> Placement:
         return work.placement
     robot, simulation, planner = work.robot, work.simulation, Planner(work)
     while True:
-        while (slide := work.task.slide(simulation.state, tuple(work.placement.grasps), planner.put)) is not None:
-            PullPlanner(work).pull(slide)
-            _shift(simulation, slide.name, slide.by * slide.front)
-            planner.put.add(slide.spec)
+        while (opening := work.task.opening(simulation.state, tuple(work.placement.grasps), planner.put)) is not None:
+            PullPlanner(work).pull(opening)
+            _move_along(simulation, opening)
+            planner.put.add(opening.spec)
         if not (goals := planner.goals()):
             break
         again = [goal.name for goal in goals if goal.name in planner.put]
@@ -135,6 +136,18 @@ def _shift(simulation: Simulation, moved: str, shift: Array) -> None:
 
     mujoco.mj_forward(simulation.model, simulation.data)
     simulation.states.refresh()
+
+
+def _move_along(simulation: Simulation, opening: Opening) -> None:
+    """Move a drawer or a door along its way, with what is in it."""
+    state, mechanism = simulation.state, opening.mechanism
+    holder, at = state.rotation(mechanism.holder), state.position(mechanism.holder)
+    before = holder.T @ (state.position(opening.name) - at)
+    position, rotation = mechanism.moved(before, holder.T @ state.rotation(opening.name), opening.by)
+    first = int(simulation.world.positions[simulation.world.objects.index(opening.name)])
+    quat = Pose.from_matrix(holder @ rotation, np.zeros(3)).quat_wxyz
+    simulation.data.qpos[first + 3 : first + 7] = quat
+    _shift(simulation, opening.name, holder @ (position - before))
 
 
 def _refusal(planner: Planner, robot: str, name: str) -> str:

@@ -24,6 +24,7 @@ from pat3d.scene.model import GROUND, Scene
 
 if TYPE_CHECKING:
     from pat3d.envs.physics.state import SimState, States
+    from pat3d.envs.tasks.mechanisms import Mechanism
 
 
 FIRST_MOVE, FURTHER_MOVE = 20.0, 15.0
@@ -52,16 +53,16 @@ class Goal:
     """Others belong there too, so that its middle is left free."""
 
 
-class Slide(NamedTuple):
-    """A drawer that a task wants moved along its way next."""
+class Opening(NamedTuple):
+    """A drawer or a door that a task wants moved along its way next."""
 
     name: str
     spec: str
     """Of the step that wants it."""
     by: float
-    """[m]"""
-    front: Array
-    """Unit vector towards which it opens, shape (3,)."""
+    """In the unit of the way; below zero to shut it."""
+    mechanism: Mechanism
+    """How it moves."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -186,8 +187,8 @@ class Task(ABC):
             done: objects that were taken and put down already, which the state alone does not tell.
         """
 
-    def slide(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Slide | None:
-        """The drawer to move next, before any of the `goals`; None for most.
+    def opening(self, state: SimState, graspable: Collection[str], done: Collection[str] = ()) -> Opening | None:
+        """The drawer or door to move next, before any of the `goals`; None for most.
 
         Arguments as of these, and `done` holds the specifications of what was opened or shut already.
         """

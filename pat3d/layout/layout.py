@@ -20,6 +20,7 @@ from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.bodies import Array, Body
 from pat3d.layout.clearance import Clearance, require_clearance
 from pat3d.layout.containers import pack
+from pat3d.layout.doors import hang_in, turns
 from pat3d.layout.drawers import slide_in, slides
 from pat3d.layout.flat import Lateral, Surface
 from pat3d.layout.formations import Wishes, ring_angles
@@ -210,14 +211,16 @@ class _Arranger:
         root = self.bodies[name].at(rotation, np.zeros(3))
         group = Group((root,))
         kids = self.children[name]
-        drawn = [kid for kid in kids if self.kinds[kid] == "in" and slides(self.bodies[kid].asset, root.body.asset)]
-        kids = [kid for kid in kids if kid not in drawn]
+        own = [(kid, self.bodies[kid].asset) for kid in kids if self.kinds[kid] == "in"]
+        drawn, hung = ([kid for kid, asset in own if moves(asset, root.body.asset)] for moves in (slides, turns))
+        kids = [kid for kid in kids if kid not in (*drawn, *hung)]
         column, within = column_of(root), [kid for kid in kids if self.kinds[kid] == "in"]
         inside = within if column is not None else []
         hanging = [kid for kid in kids if self.kinds[kid] == "hangs_from"]
         self.notes += [f'"{name}" has no cavity; "{kid}" stands on it.' for kid in within if kid not in inside]
         onto = [kid for kid in kids if kid not in inside and kid not in hanging]
         group = self._with(group, slide_in(root, [self._build(kid, 0.0) for kid in drawn], self.gap))
+        group = self._with(group, hang_in(root, [self._build(kid, 0.0) for kid in hung], self.gap))
         # Under a ceiling things go in from the front.
         capped = column is not None and column.capped
         group = self._load(group, inside, yaw, "in") if capped else self._fill(group, inside)

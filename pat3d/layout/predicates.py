@@ -12,7 +12,7 @@ exported parts, and the viewer at -y:
 - in: carried, the lowest point below the rim, or, on a heap, above the rim by at most half the child's own
   height; and the centre of mass in the column over the cavity's floor, or, for what stands or leans on that
   floor (lowest point in the column and below the rim: a pen in a mug), over the parent's footprint. Without a
-  cavity: the centre of mass and the lowest point inside the bounding box.
+  cavity: the centre of mass and the lowest point inside the bounding box. Of a door: its pins in the sockets.
 - left_of, right_of, in_front_of, behind: along the axis the centres are in that order and the boxes overlap
   by at most half of the smaller one; and the offset is mostly along that axis (within 60 degrees of it), or
   the boxes overlap across it.
@@ -43,6 +43,7 @@ from pat3d.geometry.polygons import contains, outline
 from pat3d.geometry.pose import Pose
 from pat3d.layout.arranged import arrangement_holds, in_grid
 from pat3d.layout.bodies import Array, Placed, distance, place_all
+from pat3d.layout.doors import in_sockets, turns
 from pat3d.layout.frames import column_at
 from pat3d.layout.lateral import APART, Box, Seen, next_to, on_side
 from pat3d.scene.arrangements import LINES, Arrangement, Posture, crossing
@@ -191,6 +192,9 @@ class _View:
     def _in(self, child: str, parent: str) -> tuple[bool, str]:
         body, holder = self.bodies[child], self.bodies[parent]
         carried, how = self._carried(child, parent)
+        if turns(body.body.asset, holder.body.asset):
+            hung, where = in_sockets(body, holder)
+            return carried and hung, f"{how}, {where}"
         column = column_at(holder, float(body.low[2]) + self.touch)
         if column is None:
             points = np.stack([body.centre_of_mass, [*body.centre_of_mass[:2], body.low[2]]])

@@ -14,6 +14,7 @@ from pat3d.geometry.rotations import yaw_matrix
 from pat3d.layout.balance import support_margin
 from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, lower, pack
+from pat3d.layout.doors import swept
 from pat3d.layout.drawers import ways_out
 from pat3d.layout.flat import Item, Lateral, Spot
 from pat3d.layout.formations import Wishes
@@ -90,7 +91,8 @@ def spread(
 def item_of(group: Group, *, turnable: bool) -> Item:
     """The outline of `group` from above, relative to its origin."""
     origin = group.root.position[:2]
-    points = np.concatenate([*(member.vertices[:, :2] for member in group.members), *ways_out(group.members)])
+    points = np.concatenate([*(member.vertices[:, :2] for member in group.members), *ways_out(group.members),
+                             *swept(group.members)])  # fmt: skip
     low, high = points.min(axis=0), points.max(axis=0)
     noun = group.root.body.asset.noun
     return Item(

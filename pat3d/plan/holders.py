@@ -9,7 +9,8 @@ _HOLLOW = frozenset({"bowl", "cup", "mug", "glass", "pot", "jar", "vase", "baske
 _OPEN = frozenset({"storage box", "lunch box", "open toolbox", "open treasure chest", "open cookie jar", "paper bag",
                    "measuring spoon", "graduated cylinder", "ice cube tray", "bathtub", "washtub", "aquarium", "tureen",
                    "umbrella stand", "drawer", "open drawer", "open microwave", "open toaster oven", "open oven",
-                   "open fridge", "open dishwasher", "open cabinet", "open wardrobe"})  # fmt: skip
+                   "open fridge", "open dishwasher", "open cabinet", "open wardrobe", "hinged microwave",
+                   "hinged cabinet", "hinged fridge"})  # fmt: skip
 """Other nouns of what things are put in."""
 FLAT = ("plate", "saucer", "platter", "tray", "baking tray", "pan", "frying pan", "wok", "soap dish", "dish rack",
         "dustpan", "paper tray", "toy truck", "baking dish", "petri dish", "drawer organizer", "cube tray", "wine rack",

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import groupby
 
+from pat3d.plan.doors import DOORS
 from pat3d.plan.english import counted, is_plural, joined, plural, some
 from pat3d.plan.holders import FLAT, HOUSING, holds
 from pat3d.plan.naming import Names
@@ -35,8 +36,8 @@ class _Teller(Names):
         """Everything in each pyramid, its lowest row first, by the objects of that row."""
 
     def told(self) -> str:
-        sentences = [*self._supports(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]
-        sentences += [*self._sizes(), *self._task()]
+        sentences = [*self._supports(), *self._doors(), *self._rows(), *self._arranged(), *self._laterals()]
+        sentences += [*self._postures(), *self._sizes(), *self._task()]
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
 
     def _sizes(self) -> list[str]:
@@ -96,7 +97,7 @@ class _Teller(Names):
     def _supports(self) -> list[str]:
         """What stands on the ground, then what stands on each of that, stacks as one."""
         made: list[str] = []
-        told: set[str] = set()
+        told = {obj.name for obj in self._plan.objects if obj.noun in DOORS}
         waiting = [GROUND]
         while waiting:
             parent = waiting.pop(0)
@@ -132,6 +133,15 @@ class _Teller(Names):
                     is_or_are = "are" if len(others) > 1 else verb
                     made.append(f"{self._listed(others)} {is_or_are} {self._how(parent, kind)} {place}")
                     told |= set(others)
+        return made
+
+    def _doors(self) -> list[str]:
+        """How the doors are that turn."""
+        made: list[str] = []
+        for state in (False, True):
+            doors = [obj.name for obj in self._plan.objects if DOORS.get(obj.noun) is state]
+            if doors:
+                made.append(f"{self._all(doors)} {self._is(doors)} {'open' if state else 'shut'}")
         return made
 
     def _how(self, parent: str, kind: str) -> str:

@@ -83,7 +83,7 @@ class Pusher:
     def _do(self, stroke: Stroke) -> Iterator[NDArray[np.float32]]:
         fingers = -1.0 if stroke.open else 1.0
         hand = self._env.simulation.state.hand.copy()
-        high = self._planner.passing(hand, stroke.back, AROUND, "") + self._gripper.tip + PASSING
+        high = self._planner.passing(hand, stroke.back, AROUND) + self._gripper.tip + PASSING
         high = max(high, float(stroke.back[2]))
         yield from self._go(np.array([*hand[:2], max(high, float(hand[2]))]), fingers, NEAR)
         self._rotation = stroke.rotation

@@ -20,7 +20,7 @@ from pat3d.envs.robots.arms import measure_gripper
 from pat3d.envs.tasks.moves import ABOVE, RELEASE, Move, Planner
 from pat3d.envs.tasks.push import Push
 from pat3d.errors import EnvironmentSetupError
-from pat3d.policies_eval.policies.drawers import move_drawer
+from pat3d.policies_eval.policies.opening import move_along
 from pat3d.policies_eval.policies.policy import EpisodeStart
 from pat3d.policies_eval.policies.pushing import Pusher
 from pat3d.policies_eval.policies.two_hands import TWO_HANDED, TwoHands
@@ -121,10 +121,10 @@ class ScriptedPolicy:
     def _begin(self) -> None:
         """Choose the next move."""
         state, grasps = self._env.simulation.state, tuple(self._env.placement.grasps)
-        slide = self._env.task.slide(state, grasps, self._planner.put)
-        if slide is not None:
-            self._slide, self._script = slide, move_drawer(self._env, slide)
-            self._enter("slide_drawer")
+        opening = self._env.task.opening(state, grasps, self._planner.put)
+        if opening is not None:
+            self._opening, self._script = opening, move_along(self._env, opening)
+            self._enter("move_along")
             return
         move = self._planner.next(self._failures)
         if move is None:
@@ -142,7 +142,7 @@ class ScriptedPolicy:
             top = float(state.points(move.name)[:, 2].max())
             self._high = max(top + HOVER, move.before[2] + HOVER)
         else:
-            passed = self._planner.passing(hand, move.before, HAND_RADIUS, "")
+            passed = self._planner.passing(hand, move.before, HAND_RADIUS)
             self._high = max(float(move.before[2]), passed + self._gripper.tip + PASSING)
         self._enter("rise")
 
@@ -167,24 +167,24 @@ class ScriptedPolicy:
             return None
         return action
 
-    def _slide_drawer(self) -> NDArray[np.float32] | None:
-        """Until the drawer is where it should be; what was done is not begun again where it is undone later."""
+    def _move_along(self) -> NDArray[np.float32] | None:
+        """Until the drawer or door is where it should be; what was done is not begun again where it is undone later."""
         action = next(self._script, None)
         if action is None:
             self._stay, self._rotation = (
                 self._env.simulation.state.hand.copy(),
                 self._env.simulation.state.hand_rotation,
             )
-            self._enter("slid")
+            self._enter("moved")
         return action
 
-    def _slid(self) -> NDArray[np.float32] | None:
+    def _moved(self) -> NDArray[np.float32] | None:
         self._steps += 1
         if self._steps > SETTLE_STEPS:
             grasps = tuple(self._env.placement.grasps)
-            left = self._env.task.slide(self._env.simulation.state, grasps, self._planner.put)
-            if left is None or left.spec != self._slide.spec:
-                self._planner.put.add(self._slide.spec)
+            left = self._env.task.opening(self._env.simulation.state, grasps, self._planner.put)
+            if left is None or left.spec != self._opening.spec:
+                self._planner.put.add(self._opening.spec)
             self._begin()
             return None
         return self._servo.towards(self._stay, self._rotation, -1.0)[0]

@@ -19,7 +19,7 @@ _LEAF = 0.02
 """Thickness of doors [m]."""
 
 
-def _hollow(x: Range, y: Range, z: Range, wall: float, floors: Sequence[float] = (), board: float = 0.015):
+def hollow(x: Range, y: Range, z: Range, wall: float, floors: Sequence[float] = (), board: float = 0.015):
     """A carcass [m] that is open in front, with boards whose tops are at `floors`; and its compartments, best first.
 
     The best is the one nearest to a hand's height of 0.95 m.
@@ -55,7 +55,7 @@ def _case(style: Style, x: float, y: float, z: float, boards: int, mass: float) 
     front = -y / 2 + 0.015
     low, high = foot, z - top
     floors = [low + wall + k * (high - low - 2 * wall) / (boards + 1) for k in range(1, boards + 1)]
-    body, shelves, rooms = _hollow((-x / 2, x / 2), (front, y / 2), (low, high + 0.001), wall, floors)
+    body, shelves, rooms = hollow((-x / 2, x / 2), (front, y / 2), (low, high + 0.001), wall, floors)
     plinth = box(x - 0.04, y - 0.06, foot + 0.002)
     cover = box(x + 0.02, y, top).moved(z=high)
     doors = [
@@ -87,7 +87,7 @@ def _counter_case(style: Style, x: float, y: float, z: float, door: float, mass:
     x, y, z = style.vary(x, 0.03), style.vary(y, 0.03), style.vary(z, 0.03)
     colour, low, front = style.colour(), 0.012, -y / 2 + 0.02
     edge = -x / 2 + door * x
-    body, _, rooms = _hollow((-x / 2, edge), (front, y / 2), (low, z), 0.014)
+    body, _, rooms = hollow((-x / 2, edge), (front, y / 2), (low, z), 0.014)
     panel = span((edge - 0.001, x / 2), (front, y / 2), (low, z))
     if down:
         leaf = span((-x / 2 + 0.004, edge - 0.004), (front - (z - low) + 0.02, front + 0.001), (low, low + 0.012))
@@ -123,7 +123,7 @@ def _kitchen_case(
     """A kitchen appliance 0.6 m wide, the door of its `room` (a range of heights [m]) folded down."""
     x, y, z = style.vary(0.6, 0.01), style.vary(0.6, 0.02), style.vary(z, 0.01)
     colour, front = style.colour(), -y / 2 + 0.03
-    body, racks, rooms = _hollow((-x / 2, x / 2), (front, y / 2), room, 0.025, boards, 0.012)
+    body, racks, rooms = hollow((-x / 2, x / 2), (front, y / 2), room, 0.025, boards, 0.012)
     above = span((-x / 2, x / 2), (front, y / 2), (room[1] - 0.001, z - 0.012))
     hob = span((-x / 2, x / 2), (-y / 2, y / 2), (z - 0.0121, z))
     below = span((-x / 2 + 0.01, x / 2 - 0.01), (front + 0.01, y / 2), (0.0, room[0] + 0.001))
@@ -162,7 +162,7 @@ def open_fridge(style: Style) -> Build:
     x, y, z = style.vary(0.6, 0.03), style.vary(0.64, 0.02), style.vary(1.55, 0.05) * stretch(style)[2]
     colour, front, low = style.colour(), -y / 2 + 0.06, 0.36 * z
     floors = [low + 0.03 + k * (z - low - 0.06) / 3 for k in (1, 2)]
-    body, boards, rooms = _hollow((-x / 2, x / 2), (front, y / 2), (low, z), 0.03, floors)
+    body, boards, rooms = hollow((-x / 2, x / 2), (front, y / 2), (low, z), 0.03, floors)
     chest = span((-x / 2, x / 2), (front, y / 2), (0.0, low + 0.001))
     drawer = span((-x / 2, x / 2), (-y / 2, front + 0.001), (0.05, low - 0.01))
     door = _door(x - 0.01, (low + 0.01, z), (-x / 2 + 0.001, front + 0.001), -1)

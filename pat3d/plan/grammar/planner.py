@@ -11,6 +11,7 @@ from pat3d.assets.colours import COLOURS
 from pat3d.assets.materials import find_material
 from pat3d.errors import PromptError, SpecError
 from pat3d.plan.audit.auditor import audited
+from pat3d.plan.doors import with_doors
 from pat3d.plan.drawers import CABINETS, in_cabinets
 from pat3d.plan.grammar.chunking.chunks import trimmed
 from pat3d.plan.grammar.chunking.cutter import Cutter
@@ -180,7 +181,7 @@ class GrammarPlanner(Sparing):
         task, notes = task_of(world, names)
         plan = replace(plan, task=task, notes=tuple(dict.fromkeys((*plan.notes, *notes))))
         plan = in_cabinets(plan, *self._cabinet_said(prompt))
-        plan = audited(plan, self._nouns.resolve, lexicon.FLOOR, self._likely.carried)
+        plan = with_doors(audited(plan, self._nouns.resolve, lexicon.FLOOR, self._likely.carried))
         return replace(plan, notes=tuple(dict.fromkeys((*plan.notes, *put_otherwise(world, names)))))
 
     def _cabinet_said(self, prompt: str) -> tuple[str, tuple[str, ...]]:

@@ -51,13 +51,14 @@ A row runs from left to right; "left_of" and the like between its members turn i
 
 Instructions. "Put the soup in the basket" describes the scene before it: soup and basket stand apart. `task` is then
 one of pick:OBJECT, place:OBJECT:TARGET, stack:OBJECT:TARGET, beside:OBJECT:RELATION:LANDMARK with one of the lateral
-relations ({", ".join(ASIDE)}), unload:CONTAINER, sort, open:DRAWER, close:DRAWER, with names of the plan; else null.
+relations ({", ".join(ASIDE)}), unload:CONTAINER, sort, open:OBJECT, close:OBJECT, with names of the plan; else null.
 Several of them that put, stack, place beside, open or close, {STEPS[0]} to {STEPS[1]}, each of another object, are
-chain:STEP{AND_THEN}STEP, in order; its last step may be pick:OBJECT, and one drawer may be opened and later closed.
+chain:STEP{AND_THEN}STEP, in order; its last step may be pick:OBJECT, and the same may be opened and later closed.
 
 Drawers. A drawer that is opened, closed or has something in it is an object (noun "drawer", or "open drawer" where it
 is open before), "in" its cabinet (noun "drawer cabinet"); the adjective "top", "middle" or "bottom" says its row. At
-most three drawers; what is in a drawer is "in" it. Nothing else opens.
+most three drawers; what is in a drawer is "in" it. A microwave, a cabinet and a fridge open and close too, under their
+own names; their doors are made with them. Nothing else opens.
 
 Notes say in short English sentences what you decided where the description was silent, and name everything that it
 says and the plan does not express. `set_aside` lists words that are background, camera or mood."""

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from pat3d.errors import AnswerError, PromptError, SpecError
+from pat3d.plan.doors import with_doors
 from pat3d.plan.drawers import in_cabinets
 from pat3d.plan.grammar.meaning.world import MAX_OBJECTS
 from pat3d.plan.grammar.words.measures import LARGEST, SMALLEST
@@ -212,7 +213,7 @@ def _checked(answer: Answer) -> Answer:
     if plan.task is not None and not _is_task(plan.task, names):
         faults.append(
             f'no task "{plan.task}": pick:A, place:A:B, stack:A:B, beside:A:left_of:B, unload:A, sort, '
-            "open:DRAWER, close:DRAWER or chain:STEP:then:STEP, with names of objects."
+            "open:OBJECT, close:OBJECT or chain:STEP:then:STEP, with names of objects."
         )
     if faults:
         raise AnswerError("\n".join(faults))
@@ -220,13 +221,13 @@ def _checked(answer: Answer) -> Answer:
 
 
 def _slid(answer: Answer) -> Answer:
-    """`answer` with its drawers in a cabinet.
+    """`answer` with its drawers in a cabinet, and doors in what its task opens or shuts.
 
     Raises:
         AnswerError: there are too many of them.
     """
     try:
-        return replace(answer, plan=in_cabinets(answer.plan))
+        return replace(answer, plan=with_doors(in_cabinets(answer.plan)))
     except PromptError as error:
         raise AnswerError(str(error)) from error
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise, takewhile
 
+from pat3d.plan.doors import HINGED
 from pat3d.plan.drawers import DRAWERS
 from pat3d.plan.grammar.meaning.entities import Item, Step
 from pat3d.plan.grammar.meaning.kinds import KINDS
@@ -231,10 +232,10 @@ def _specs(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
 
 
 def _sliding(step: Step, world: World, names: Mapping[Item, str]) -> list[str]:
-    """The tasks by which drawers are opened or shut; none of what has a door or a lid."""
+    """The tasks by which drawers, and doors that turn, are opened or shut; none of what has a lid."""
     kind = {"open": "open", "close": "close", "shut": "close"}.get(step.verb)
-    drawers = [item for item in step.items if item in names and world.noun(item) in DRAWERS]
-    return [f"{kind}:{names[item]}" for item in drawers] if kind and len(drawers) == len(step.items) else []
+    moved = [item for item in step.items if item in names and world.noun(item) in {*DRAWERS, *HINGED}]
+    return [f"{kind}:{names[item]}" for item in moved] if kind and len(moved) == len(step.items) else []
 
 
 def _beside(step: Step, world: World, items: Sequence[Item], goal: Item, names: Mapping[Item, str]) -> list[str]:

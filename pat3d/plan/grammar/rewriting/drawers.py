@@ -19,7 +19,7 @@ _COUNTED = {
 """Rows of three that are counted: "the second drawer from the top"."""
 _FAR = 5
 """Words of what a drawer is of, and between an owner and its drawer."""
-_PULLING, _PUSHING = ("pull", "slide", "yank"), ("push", "slide", "shove")
+_PULLING, _PUSHING = ("pull", "slide", "yank", "swing"), ("push", "slide", "shove", "swing")
 _IN = ("closed", "shut", "in")
 
 
@@ -53,10 +53,10 @@ def drawer_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def drawers_moved(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "pull the drawer open" and "pull out the drawer" as "open the drawer", and so of closing."""
+    """`tokens` with "pull the drawer open" and "pull out the drawer" as "open the drawer", as of doors and closing."""
     words = [token.text for token in tokens]
     for at in (at for at, word in enumerate(words) if word in {*_PULLING, *_PUSHING}):
-        end = next((n for n in range(at + 2, min(at + _FAR + 1, len(words) - 1)) if words[n] == "drawer"), 0)
+        end = next((n for n in range(at + 2, min(at + _FAR + 1, len(words) - 1)) if words[n] in ("drawer", "door")), 0)
         particle = at + 1 if words[at + 1] in ("open", "out", *_IN) else end + 1
         led = end and words[at + 1 + (particle == at + 1)] in lexicon.DETERMINERS
         verb = (
