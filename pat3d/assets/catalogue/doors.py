@@ -153,7 +153,7 @@ def hinged_cabinet(style: Style) -> Build:
     body, boards, rooms = hollow((-x / 2, x / 2), (way.front, y / 2), (low, z), 0.018, (0.3,))
     plinth = box(x - 0.06, y / 2 - way.front - 0.04, low + 0.001).moved(0.0, (y / 2 + way.front) / 2)
     return Build(
-        parts=((join(body, plinth, *boards, _sockets(way)), style.shade(style.colour(), 0.8)),),
+        parts=((join(body, plinth, *boards, _sockets(way)), style.colour()),),
         regions=(*rooms, shelf_top(x / 2, (y / 2 - way.front) / 2, z, at=(0.0, (y / 2 + way.front) / 2))),
         mass=16.0,
     )
