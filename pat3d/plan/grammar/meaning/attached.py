@@ -66,6 +66,15 @@ def beside_each_other(world: World, below: Item, marks: Sequence[Item]) -> bool:
     )
 
 
+def lids_beside(world: World, children: Sequence[Item], vessel: Item) -> None:
+    """Put the lids among `children`, which are beside the `vessel` that they close, on what that stands on."""
+    edge = world.supports.get(vessel)
+    lids = [item for item in children if world.likely.closes(world.noun(item), world.noun(vessel))]
+    free = [item for item in lids if world.support(item) is None]
+    if free and edge is not None and edge.kind == "on":
+        world.place(free, "on", [edge.parent], weak=True)
+
+
 def bears(world: World, below: Item, above: Item) -> bool:
     """Whether what is said to be above `below` is on it, and neither hangs nor reaches over it."""
     noun, load = world.noun(below), world.noun(above)

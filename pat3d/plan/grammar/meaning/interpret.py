@@ -296,6 +296,9 @@ class Interpreter(Holding):
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
             children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
+        if link.kind == "on" and self._world.is_table(parents[0]):
+            # "A wall clock, a lamp and a book on the table": the clock is on the wall.
+            children = [item for item in children if not self._on_wall(item)] or children
         parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)
         # One thing is beside several at once: "a ball to the left of both boxes".

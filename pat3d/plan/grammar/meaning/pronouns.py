@@ -147,6 +147,7 @@ class Pronouns:
         if link is not None and link.kind in LATERAL_KINDS and not (child or plural):
             # "A laptop is on a desk; to its right is a mouse, and behind it a lamp": behind the laptop.
             candidates.append((-0.2, self._told_by_its_side(at)))
+            candidates.append((-1.0, self._owner_of(other, at)))
             candidates.append((-1.7, self._world.below_told(next((each for each in before if each), []), other)))
         steps, unread = self._world.steps, self._world.unread
         if child and self.asked and unread is not None:
@@ -348,6 +349,19 @@ class Pronouns:
             return []
         heads = next((self.clauses[start] for start in sorted(self.clauses, reverse=True) if start < side), ())
         return [item for head in heads for item in self.ref(head)] or list(self._world.subject)
+
+    def _owner_of(self, items: Sequence[Item], at: int) -> list[Item]:
+        """What is named last before chunk `at` of what the lids `items` close; that has "its saucer" and is no carrier."""
+        world, own = self._world, any(item.group.phrase.possessive for item in items)
+        lids = bool(items) and all(world.is_a(item, lexicon.ON_RIMS) for item in items)
+        carriers = {edge.parent for edge in world.supports.values()}
+        told = [each for key in sorted(self.known, reverse=True) if key < at for each in reversed(self.known[key])]
+        told += [each for group in reversed(self._earlier) for each in reversed(group.items)]
+        for each in told if lids or own else ():
+            closed = lids and all(world.likely.closes(world.noun(item), world.noun(each)) for item in items)
+            if each not in items and (closed or not (lids or each in carriers)):
+                return [each]
+        return []
 
     def _carried(self, items: Sequence[Item]) -> str | None:
         """The words for the one thing that `items` are said to have on or in them, named behind them; None without."""

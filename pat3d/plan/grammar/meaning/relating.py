@@ -8,7 +8,7 @@ from itertools import product
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
-from pat3d.plan.grammar.meaning.attached import bears, crowding, slip_under, with_its_carrier
+from pat3d.plan.grammar.meaning.attached import bears, crowding, lids_beside, slip_under, with_its_carrier
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
@@ -119,6 +119,7 @@ class Relating:
             if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
+            lids_beside(world, children, parents[0])
             if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
                 # A ring around several things is around none of them alone.
                 return

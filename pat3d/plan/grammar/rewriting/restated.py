@@ -31,6 +31,8 @@ _SHINING = {"shines": ("points", "at"), "shine": ("are", "pointing", "at"), "shi
 _UPON = frozenset({"on", "onto", "upon", "at", "over"})
 """Words before what a lamp lights."""
 _NEAR = frozenset({"behind", "beside", "under", "on", "near", "between", "over", "above", "by", "beneath"})
+_BELOW = frozenset({"under", "underneath", "beneath", "below"})
+_JOINING = frozenset({"and", ",", "with"})
 _ONE_OF = frozenset({"one", "other", "another", "first", "second", "third", "fourth", "last", "left", "right"})
 """Words for one of several that are not named again."""
 
@@ -198,6 +200,31 @@ def upon_it(tokens: Sequence[Token]) -> list[Token]:
         if one or listed:
             said = [replace(tokens[at], text="in" if size == 1 else "on"), replace(tokens[at], text="it")]
             tokens = [*tokens[:at], *said, *tokens[at + size :]]
+    return list(tokens)
+
+
+def on_top(tokens: Sequence[Token]) -> list[Token]:
+    """`tokens` with "a crate, on top a lamp" as "... on top of it a lamp".
+
+    Of "a crate under the table and a lamp on top" the lamp is on top of the table.
+    """
+    words = [token.text for token in tokens]
+    under = next((n for n in range(len(words) - 3) if words[n] in _BELOW and words[n + 1] in ("the", "a", "an")), None)
+    below = under + 2 if under is not None else 0
+    while below and below < len(words) and not (tokens[below].mark or words[below] in FINITE | _JOINING):
+        below += 1
+    for at in range(max(below, 3), len(words) - 2):
+        if words[at : at + 2] != ["on", "top"]:
+            continue
+        after = at + 2 + (words[at + 2] in ("is", "are", *lexicon.STANDING))
+        fronts = words[at - 1] in _JOINING and (words[after] in ("a", "an") or words[after] in lexicon.NUMBERS)
+        joint = max(n for n in range(at) if words[n] in _JOINING or not n)
+        new = words[joint + 1] in ("a", "an") or words[joint + 1] in lexicon.NUMBERS
+        listed = below and joint and new and tokens[at + 2].mark and words[joint] != "with"
+        if fronts or (listed and not any(link_at(tokens, n) for n in range(joint + 1, at))):
+            of = [replace(tokens[at + 1], text="of")]
+            owner = [replace(one, text="the") if not n else one for n, one in enumerate(tokens[under + 1 : below])] if under is not None else [replace(tokens[at + 1], text="it")]
+            return [*tokens[: at + 2], *of, *owner, *tokens[at + 2 :]]
     return list(tokens)
 
 

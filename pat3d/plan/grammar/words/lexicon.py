@@ -303,6 +303,8 @@ STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresse
     *HOUSING)  # fmt: skip
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
+ON_WALLS = ("wall clock", "hook rail", "towel rail", "key rack")
+"""What hangs on a wall though a list of it ends in "on the table"."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""
 
