@@ -120,7 +120,7 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "sunrise", "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed",
     "pair view", "suite", "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation",
     "direction", "user", "manner", "way", "fashion", "use", "close up", "grain patterns", "windows",
-    "nook", "alcove", "kitchenette", "conservatory", "cubicle"})  # fmt: skip
+    "nook", "alcove", "kitchenette", "bistro", "diner", "boutique", "atelier", "parlour", "conservatory", "cubicle"})  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents",
     "elements"})  # fmt: skip
@@ -155,8 +155,13 @@ PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube",
 SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "model", "block", "ball"})
 """X in "X of Y" where X is the form that Y has."""
 PICTURES = frozenset({"photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration",
-    "display", "scene", "arrangement", "painting", "drawing", "depiction"})  # fmt: skip
+    "display", "scene", "arrangement", "painting", "drawing", "depiction", "sketch", "watercolor",
+    "watercolour", "artwork", "cartoon", "diorama", "snapshot",})  # fmt: skip
 """X in "X of Y" where only Y is there to be placed."""
+STYLES = frozenset({"4k", "8k", "16k", "hd", "uhd", "hdr", "octane", "artstation", "unreal", "engine", "cgi", "bokeh",
+    "masterpiece", "photorealism", "hyperrealism", "photoreal", "3d", "render", "rendering", "style", "quality",
+    "resolution", "lighting", "pbr", "pixar", "ghibli"})  # fmt: skip
+"""Words for how a picture is made, set off behind its scene."""
 SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt",
     "honey", "jam", "oil", "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade",
     "soda", "chocolate milk", "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",

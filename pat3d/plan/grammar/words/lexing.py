@@ -105,6 +105,11 @@ def _quotient(found: re.Match[str]) -> str:
     return f"{int(found[1]) / int(found[2]):.4g}"
 
 
+def _unaccented(word: str) -> str:
+    """`word` with "café" as "cafe"."""
+    return "".join(each for each in unicodedata.normalize("NFKD", word) if not unicodedata.combining(each))
+
+
 def tokenise(text: str) -> list[Token]:
     """The words and marks of normalised `text`, ending in a full stop."""
     tokens: list[Token] = []
@@ -113,7 +118,8 @@ def tokenise(text: str) -> list[Token]:
         start, end = found.span()
         if found.lastgroup in ("word", "number"):
             words += 1
-            word = MISSPELLED.get(found.group().lower(), found.group().lower())
+            word = _unaccented(found.group().lower())
+            word = MISSPELLED.get(word, word)
             if word.endswith("'s") and len(word) > 2:
                 tokens.append(Token(text=word[:-2], start=start, end=end - 2, number=words))
                 tokens.append(Token(text="'s", start=end - 2, end=end, number=words))
