@@ -58,8 +58,9 @@ class Further(SharedOut):
         "A bowl holds an egg. Two are on the table.": two eggs.
         """
         world, (link, landmark) = self._world, self._stands(at)
-        verb = self._chunks[min(at + 1, len(self._chunks) - 1)].kind == "verb"
-        if not verb or link is None or landmark is None or link.kind not in SUPPORT_KINDS:
+        verb = self._chunks[min(at + 1, len(self._chunks) - 1)]
+        agrees = (self._chunks[at].named.count or 1) > 1 or not {*verb.words} & lexicon.OF_SEVERAL
+        if verb.kind != "verb" or not agrees or link is None or landmark is None or link.kind not in SUPPORT_KINDS:
             return []
         edges = [(item, edge.parent) for item, edge in world.supports.items() if not edge.weak]
         for one, other in self.related:

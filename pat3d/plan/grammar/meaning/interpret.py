@@ -306,6 +306,9 @@ class Interpreter(Holding):
         carrying = having or link.kind in SUPPORT_KINDS or link.manner == "under"
         of_all = self._said.speaks_of_each(parent_heads, carrying=carrying)
         spoken = [self._chunks[head].named for head in parent_heads]
+        # "A lamp on the left and the right table": one on each.
+        ranked = len(parent_heads) > 1 and len({one.noun for one in spoken}) == 1 and all(map(position, spoken))
+        of_all = of_all or (ranked and link.kind in SUPPORT_KINDS)
         if of_all and on_top_of_both(self._world, self._chunks[at].words, spoken, children, parents):
             link = replace(link, says="across")
         had = share(self._world, link, parents, children, all_of=of_all, having=having)

@@ -388,7 +388,7 @@ class Pronouns:
         if phrase is None or phrase.definite:
             return False
         opening = phrase.words.lower().split()[:2]
-        return phrase.head == "another" or phrase.other or (opening[0] == "a" and opening[-1] in ORDINALS)
+        return phrase.head == "another" or phrase.other or (opening[:1] == ["a"] and opening[-1] in ORDINALS)
 
     def _comes_later(self, items: Sequence[Item], at: int) -> bool:
         """Whether `items` are named behind chunk `at` first: "It stands before a radio, which is behind a crate"."""

@@ -137,11 +137,12 @@ class Relating:
     ) -> list[list[Item]]:
         """What `children` stand beside, all of them for each: "behind two boxes" is behind the one and the other.
 
-        Next to several things one is next to each, and several are so in turn.
+        Next to several like things several are so in turn: "two mugs next to two plates".
         """
         places, own = self.world.bases(parents) or parents, self.world.bases(children)
         each = each or any(item.group.multiplied for item in (*own, *places))
-        if link.kind == "around" or len(places) < 2 or (len(own) > 1 and (each or link.kind == "next_to")):
+        alike = len({item.group.noun for item in places}) < len(places) or len(own) > _NEIGHBOURS
+        if link.kind == "around" or len(places) < 2 or (len(own) > 1 and (each or (alike and link.kind == "next_to"))):
             return [parents]
         if len(own) * len(places) > _PAIRS or (link.kind == "next_to" and len(places) > _NEIGHBOURS):
             where = RELATION_WORDS[link.kind or "next_to"]

@@ -59,13 +59,13 @@ def _ranks(tokens: Sequence[Token], at: int) -> list[int]:
 
 
 def _head(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, list[str]]:
-    """How many words the plural name at token `at` has, and its words in the singular."""
+    """How many words the name at token `at` has, and its words in the singular: "the left and the right cup" too."""
     words = [token.text for token in tokens[at : at + 3]]
     if words[:1] == ["ones"]:
         return 1, ["one"]
     for size in (3, 2, 1):
         found = nouns.match(words[:size])
         one = singulars(words[size - 1]) if len(words) >= size else ()
-        if found is not None and found.plural and one:
-            return size, [*words[: size - 1], one[0]]
+        if found is not None and (one or not found.plural):
+            return size, [*words[: size - 1], one[0] if found.plural else words[size - 1]]
     return 0, []

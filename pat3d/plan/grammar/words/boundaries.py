@@ -205,7 +205,8 @@ class Boundaries:
             if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
                 return None
         colours = is_colour_word(run[-1].text)
-        alike = not is_modifier(run[-1].text) and self._nouns.resembles_noun(run[-1].text)
+        described = all(is_modifier(token.text) for token in run)
+        alike = not described and self._nouns.resembles_noun(run[-1].text)
         if not colours and (self._nouns.match([run[-1].text]) or alike):
             return None
         first = self._skip_joint(at)
