@@ -20,6 +20,7 @@ _SUPPORTING = (
     "cylinder", "plank", "cardboard sheet", "towel", "napkin", "steak", "cookie", "waffle", "storage box",
     "wood block", "toy brick", "jenga block", "stack of paper", "dresser", "toolbox", "cracker box",
     "treasure chest", "cardboard box", "paint can", "newspaper", "mouse pad", "scale", "kitchen scale",
+    "arch",
 )  # fmt: skip
 """Flat enough to carry one thing, besides furniture and dishes."""
 _PANS = ("pan", "frying pan", "skillet", "griddle")

@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.entities import Edge, Item
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.sizes import too_large
 
 _BORNE = 1.2
@@ -17,6 +19,8 @@ _BORNE = 1.2
 _REACHING = ("tree", "rod", "lamp", "floor lamp", "faucet", "umbrella", "monitor", "tv", "clock", "mirror",
              "picture frame", "shelf")  # fmt: skip
 """What is above other things without resting on them."""
+_TABLES = ("table", "coffee table", "side table", "counter", "kitchen island")
+"""What is laid for a meal."""
 _FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
 """What carries one thing, and what is slender besides."""
 
@@ -121,6 +125,22 @@ def put_carriers(world: World, named: Sequence[Item], table: Item) -> None:
         carried = bool(edges) and all(edge.kind == "on" and not edge.weak for edge in edges)
         if carried and not (placed or soft or beside):
             world.place([lowest], "on", [table], weak=True)
+
+
+def lay_table(world: World) -> None:
+    """Put what a table is laid with, and what is named behind it, on it: "a table, chairs, a runner and two candles"."""
+    items = world.items()
+    tables = [item for item in items if world.is_a(item, _TABLES)]
+    free = [item for item in items if world.support(item) is None and item not in world.grounded | world.floored]
+    placed = {item for edge in world.laterals for item in (edge.child, edge.parent)}
+    placed |= {item for each in world.arranged for item in each.items}
+    first = next((item for item in free if lexicon.LAID & {item.group.said, *singulars(item.group.said)}), None)
+    if len(tables) == 1 and first is not None and items.index(tables[0]) < items.index(first):
+        laid = [item for item in free if items.index(item) >= items.index(first) and item not in placed]
+        laid = [item for item in laid if not (world.on_floor(item) or world.is_a(item, LARGE))]
+        world.place(laid, "on", tables, weak=True)
+        for words in dict.fromkeys(item.group.words for item in laid):
+            world.note(f'assumed: "{words}" on "{tables[0].group.words}"')
 
 
 def _moved(world: World, than: World) -> Sequence[Edge]:

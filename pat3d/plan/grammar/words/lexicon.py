@@ -308,6 +308,9 @@ STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresse
     *HOUSING)  # fmt: skip
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
+LAID = frozenset({"runner", "table runner", "tablecloth", "table cloth", "placemat", "place mat", "centerpiece",
+    "centrepiece", "doily"})  # fmt: skip
+"""What tables are laid with, by what it is called."""
 ON_WALLS = ("wall clock", "hook rail", "towel rail", "key rack")
 """What hangs on a wall though a list of it ends in "on the table"."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
