@@ -36,8 +36,18 @@ class _Teller(Names):
 
     def told(self) -> str:
         sentences = [*self._supports(), *self._rows(), *self._arranged(), *self._laterals(), *self._postures()]
-        sentences += [*self._sizes(), *self._task()]
+        sentences += [*self._tiers(), *self._sizes(), *self._task()]
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
+
+    def _tiers(self) -> list[str]:
+        """How many shelves furniture has of which the prompt says it."""
+        made: dict[str, list[str]] = {}
+        for obj in self._plan.objects:
+            for number in (word.removesuffix("-tier") for word in obj.adjectives if word.endswith("-tier")):
+                parts = "boards" if self._base[obj.name].endswith("shelf") else "shelves"
+                many = counted(int(number)) if number.isdecimal() else number
+                made.setdefault(f"{many} {parts}", []).append(obj.name)
+        return [f"{self._all(names)} {'has' if len(names) == 1 else 'have'} {parts}" for parts, names in made.items()]
 
     def _sizes(self) -> list[str]:
         """How large things are that the prompt measures."""

@@ -84,7 +84,7 @@ def bears(world: World, below: Item, above: Item) -> bool:
     noun, load = world.noun(below), world.noun(above)
     solid = not world.likely.hollow(noun) and not world.on_floor(below)
     stays = solid and world.likely.on(load, noun) <= _BORNE and not world.is_a(above, _REACHING)
-    return world.is_a(below, lexicon.STACKABLE) or stays
+    return world.is_a(below, lexicon.STACKABLE) or (stays and not world.is_a(above, ("arch",)))
 
 
 def crowding(world: World, children: Sequence[Item], parent: Item) -> float:

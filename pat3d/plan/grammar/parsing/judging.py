@@ -271,7 +271,7 @@ class Judging:
     def _kind_named(self, start: int, end: int) -> int | None:
         """The last phrase from chunk `start` to `end` that names a kind of things, of which a list may follow."""
         phrases = ((at, self._chunks[at].phrase) for at in range(end - 1, start - 1, -1))
-        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle and not phrase.definite), None)
+        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle), None)
 
     def _one_more(self, head: int) -> bool:
         """Whether "two green ones" names more objects of a kind and tells nothing of those before."""

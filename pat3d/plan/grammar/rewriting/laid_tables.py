@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.english import plural
 from pat3d.plan.grammar.rewriting.enumerated import items_of
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
@@ -15,6 +16,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import quoted
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _LAYING = (("set", "up"), ("lay", "out"), ("set",), ("lay",), ("prepare",), ("dress",), ("arrange",))
@@ -26,7 +28,7 @@ def laid_tables(text: str, told: Sequence[list[Token]], nouns: Nouns) -> tuple[l
     made: list[list[Token]] = []
     away: list[str] = []
     for sentence in told:
-        laid = _laid(sentence, nouns)
+        laid = _laid(sentence, nouns) or _places(sentence)
         if laid is None:
             made.append(sentence)
             continue
@@ -64,6 +66,27 @@ def _laid(tokens: list[Token], nouns: Nouns) -> tuple[list[Token], list[Sequence
         return None
     on = replace(tokens[colon], text="on", mark=False)
     return [replace(tokens[0], text="put"), *things, on, *tokens[verb:end], tokens[-1]], spans
+
+
+def _places(tokens: list[Token]) -> tuple[list[Token], list[Sequence[Token]]] | None:
+    """`tokens` "lay two places at the table" as "two plates, two forks and two knives on the table"; None for others.
+
+    Behind a colon stands what else a place has: "lay two places: a plate and a glass each".
+    """
+    words = [token.text for token in tokens]
+    verb = next((len(said) for said in _LAYING if tuple(words[: len(said)]) == said), 0)
+    end = verb + 2 + (words[verb + 2 : verb + 3] in (["setting"], ["settings"]))
+    if not verb or not numeral(words[verb]) or words[verb + 1] not in ("place", "places", "covers"):
+        return None
+    colon = words[end] == ":"
+    told = [[one for one in item if one.text not in ("a", "an", "each")] for item in items_of(tokens[end + 1 : -1])]
+    setting = [[replace(tokens[verb], text=word)] for word in ("plate", "fork", "knife")]
+    made: list[Token] = []
+    for *described, name in told if colon else setting:
+        joint = [replace(tokens[verb], text="and")] if made else []
+        made += [*joint, tokens[verb], *described, replace(name, text=plural(name.text))]
+    rest = [] if colon else [replace(one, text="on") if one.text == "at" else one for one in tokens[end:-1]]
+    return [*made, *rest, tokens[-1]], [] if colon else [tokens[verb : end]]
 
 
 def _named(item: Sequence[Token], nouns: Nouns) -> int:

@@ -98,7 +98,7 @@ MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "m
 ADVERBS = frozenset({"very", "neatly", "quite", "really", "slightly", "carefully", "directly", "right", "just",
     "immediately", "entirely", "vertically", "horizontally", "upright", "loosely", "closely", "together", "nicely",
     "partially", "too", "so", "still", "precariously", "gently", "randomly", "evenly", "happily", "also", "comfortably",
-    "currently", "up", "down", "neat", "already"})  # fmt: skip
+    "currently", "up", "down", "neat", "already", "everywhere"})  # fmt: skip
 
 BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backdrop", "composition", "perspective",
     "view", "floor", "ground", "surface", "wall", "walls", "atmosphere", "style", "environment", "bedroom", "kitchen",
@@ -164,7 +164,7 @@ STYLES = frozenset({"4k", "8k", "16k", "hd", "uhd", "hdr", "octane", "artstation
 """Words for how a picture is made, set off behind its scene."""
 SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt",
     "honey", "jam", "oil", "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade",
-    "soda", "chocolate milk", "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
+    "soda", "chocolate milk", "peelings", "shavings", "sawdust", "crumbs", "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
     "beverage", "greens", "lentil", "broth", "whisky", "whiskey", "rum", "vodka", "gin", "tequila", "brandy", "bourbon",
     "champagne", "cider", "liqueur", "sherry", "sake", "espresso", "latte", "cappuccino", "matcha", "batter", "dough",
     "gravy", "stew", "porridge", "oatmeal", "oats", "curry", "ramen", "quinoa", "couscous", "bean", "chickpea",
@@ -363,7 +363,7 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
     "vinyl record", "jigsaw puzzle", "apron")  # fmt: skip
 """What a pile of is a stack."""
 MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "stuff", "clutter", "mess",
-    "brunch", "picnic", "dessert", "feast", "salad", "groceries", "ingredients", "supplies"})  # fmt: skip
+    "brunch", "picnic", "dessert", "feast", "salad", "groceries"})  # fmt: skip
 """Words that name no single thing."""
 FOREIGN = frozenset({"una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das",
     "auf", "dem", "ein", "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur",
