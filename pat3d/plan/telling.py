@@ -40,14 +40,16 @@ class _Teller(Names):
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
 
     def _tiers(self) -> list[str]:
-        """How many shelves furniture has of which the prompt says it."""
+        """How many shelves furniture is made with, where the prompt says it."""
         made: dict[str, list[str]] = {}
         for obj in self._plan.objects:
-            for number in (word.removesuffix("-tier") for word in obj.adjectives if word.endswith("-tier")):
+            for number in (
+                word.removesuffix("-tier") for word in obj.adjectives if word.endswith("-tier") and word[0].isdecimal()
+            ):
                 parts = "boards" if self._base[obj.name].endswith("shelf") else "shelves"
-                many = counted(int(number)) if number.isdecimal() else number
-                made.setdefault(f"{many} {parts}", []).append(obj.name)
-        return [f"{self._all(names)} {'has' if len(names) == 1 else 'have'} {parts}" for parts, names in made.items()]
+                made.setdefault(f"{counted(int(number))} {parts}", []).append(obj.name)
+        have = [(self._all(names), parts, len(names) > 1) for parts, names in made.items()]
+        return [f"{them} {'have' if each else 'has'} {parts}{' each' * each}" for them, parts, each in have]
 
     def _sizes(self) -> list[str]:
         """How large things are that the prompt measures."""

@@ -128,7 +128,7 @@ def put_carriers(world: World, named: Sequence[Item], table: Item) -> None:
 
 
 def lay_table(world: World) -> None:
-    """Put what a table is laid with, and what is named behind it, on it: "a table, chairs, a runner and two candles"."""
+    """Put what a table is laid with, and what is named behind it, on it: "a table, a runner and two candles"."""
     items = world.items()
     tables = [item for item in items if world.is_a(item, _TABLES)]
     free = [item for item in items if world.support(item) is None and item not in world.grounded | world.floored]

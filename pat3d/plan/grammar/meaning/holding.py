@@ -132,6 +132,10 @@ class Holding(Doing):
         stands = self._world.on_floor(owner) and not self._world.is_a(owner, lexicon.HOLLOW)
         return bool(places & _WALLS) or (stands and bool(places & {"floor", "ground"}))
 
+    def _on_no_wall(self, items: list[Item]) -> list[Item]:
+        """The lamp of "a wall clock and a lamp on the table"; all where nothing else is named."""
+        return [item for item in items if not self._on_wall(item)] or items
+
     def _on_wall(self, item: Item) -> bool:
         return self._world.is_a(item, lexicon.ON_WALLS) or "wall" in item.group.words.lower().split()
 

@@ -219,14 +219,16 @@ class Pronouns:
         if below is not None and opened and link is not None and link.manner == "under":
             # "By a bench is a stool. On the stool lies a hat, under it a glove.": under the stool.
             candidates.append((0.1, [below]))
-        named = [key for key in sorted(self.known, reverse=True) if not (pointing and self._is_pronoun(key)) or self._is_further(key)]
+        silent = {key for key in self.known if pointing and self._is_pronoun(key) and not self._is_further(key)}
+        named = [key for key in sorted(self.known, reverse=True) if key not in silent]
         nearest = [self.known[key] for key in named if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         if plural and len(nearest) > 1 and len(nearest[0]) == 1:
             candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))
         for rank, items in enumerate(nearest[:4]):
             # "That" is what is named last.
-            candidates.append(((-0.5 if which else -0.3) + (0.6 if pointing else 0.3) * rank if near else 0.35 + 0.1 * rank, items))
+            nearer = (-0.5 if which else -0.3) + (0.6 if pointing else 0.3) * rank
+            candidates.append((nearer if near else 0.35 + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         further = any(self._is_further(key) for key, items in self.known.items() if set(items) & set(other))
@@ -358,7 +360,7 @@ class Pronouns:
         return [item for head in heads for item in self.ref(head)] or list(self._world.subject)
 
     def _owner_of(self, items: Sequence[Item], at: int) -> list[Item]:
-        """What is named last before chunk `at` of what the lids `items` close; that has "its saucer" and is no carrier."""
+        """What is named last before chunk `at` of what the lids `items` close, or what has "its saucer"."""
         world, own = self._world, any(item.group.phrase.possessive for item in items)
         lids = bool(items) and all(world.is_a(item, lexicon.ON_RIMS) for item in items)
         carriers = {edge.parent for edge in world.supports.values()}

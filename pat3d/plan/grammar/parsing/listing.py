@@ -15,7 +15,7 @@ _DANGLES = 0.4
 """Cost of what stands at the end of a clause, behind a landmark, and is not beside anything."""
 
 
-_FILLS_TOO = 0.4
+_FILLS_TOO = 0.6
 """Cost of parting what fills a vessel from what may fill it too."""
 
 

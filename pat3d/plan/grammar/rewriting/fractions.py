@@ -61,7 +61,10 @@ def in_numbers(text: str, tokens: Sequence[Token], nouns: Nouns) -> tuple[list[T
         told = [("one" if count == 1 else str(count)) if known else "some", *(["of"] if ones else [])]
         if every:
             verb = made[end + 1]
-            are = [replace(verb, text=_OF_SEVERAL.get(verb.text, "are")), *([verb] if is_colour_word(verb.text) else [])]
+            are = [
+                replace(verb, text=_OF_SEVERAL.get(verb.text, "are")),
+                *([verb] if is_colour_word(verb.text) else []),
+            ]
             ones = [replace(made[end], text="them"), *are]
         made[at - 1 : end + (2 if every else len(ones))] = [*(replace(made[at - 1], text=word) for word in told), *ones]
     return made, notes

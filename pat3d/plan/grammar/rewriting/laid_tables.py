@@ -86,7 +86,7 @@ def _places(tokens: list[Token]) -> tuple[list[Token], list[Sequence[Token]]] | 
         joint = [replace(tokens[verb], text="and")] if made else []
         made += [*joint, tokens[verb], *described, replace(name, text=plural(name.text))]
     rest = [] if colon else [replace(one, text="on") if one.text == "at" else one for one in tokens[end:-1]]
-    return [*made, *rest, tokens[-1]], [] if colon else [tokens[verb : end]]
+    return [*made, *rest, tokens[-1]], [] if colon else [tokens[verb:end]]
 
 
 def _named(item: Sequence[Token], nouns: Nouns) -> int:

@@ -213,22 +213,19 @@ def on_top(tokens: Sequence[Token]) -> list[Token]:
     Of "a crate under the table and a lamp on top" the lamp is on top of the table.
     """
     words = [token.text for token in tokens]
-    under = next((n for n in range(len(words) - 3) if words[n] in _BELOW and words[n + 1] in ("the", "a", "an")), None)
-    below = under + 2 if under is not None else 0
-    while below and below < len(words) and not (tokens[below].mark or words[below] in FINITE | _JOINING):
-        below += 1
-    for at in range(max(below, 3), len(words) - 2):
-        if words[at : at + 2] != ["on", "top"]:
-            continue
-        after = at + 2 + (words[at + 2] in ("is", "are", *lexicon.STANDING))
-        fronts = words[at - 1] in _JOINING and (words[after] in ("a", "an") or words[after] in lexicon.NUMBERS)
-        joint = max(n for n in range(at) if words[n] in _JOINING or not n)
-        new = words[joint + 1] in ("a", "an") or words[joint + 1] in lexicon.NUMBERS
-        listed = below and joint and new and tokens[at + 2].mark and words[joint] != "with"
-        if fronts or (listed and not any(link_at(tokens, n) for n in range(joint + 1, at))):
-            of = [replace(tokens[at + 1], text="of")]
-            owner = [replace(one, text="the") if not n else one for n, one in enumerate(tokens[under + 1 : below])] if under is not None else [replace(tokens[at + 1], text="it")]
-            return [*tokens[: at + 2], *of, *owner, *tokens[at + 2 :]]
+    new = {"a", "an", *lexicon.NUMBERS}
+    under = next((n for n in range(len(words) - 3) if words[n] in _BELOW and words[n + 1] in lexicon.DETERMINERS), -1)
+    joints = [n for n in range(under + 2, len(words)) if tokens[n].mark or words[n] in FINITE | _JOINING]
+    for at in range(max(under, 2) + 1, len(words) - 2):
+        after = at + 2 + (words[at + 2] in lexicon.STANDING)
+        joint = max((n for n in range(at) if words[n] in _JOINING), default=-1)
+        fronts = joint == at - 1 and words[after] in new
+        listed = under >= 0 and words[joint] != "with" and words[joint + 1] in new and tokens[at + 2].mark
+        last = joint > under and not any(link_at(tokens, n) for n in range(joint + 1, at))
+        if words[at : at + 2] == ["on", "top"] and (fronts or (listed and last)):
+            the, *name = tokens[under + 1 : joints[0]] if under >= 0 else tokens[at : at + 1]
+            owner = [replace(the, text="the" if under >= 0 else "it"), *name]
+            return [*tokens[: at + 2], replace(tokens[at + 1], text="of"), *owner, *tokens[at + 2 :]]
     return list(tokens)
 
 

@@ -1,4 +1,4 @@
-"""What is only smelled, heard, tasted or felt: "it smells like oil and rubber", "the sound of a piano fills the room"."""
+"""What is only smelled, heard, tasted or felt: "it smells like oil", "the sound of a piano fills the room"."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def sensed(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
         if not noun and not (verb in _SENSING and words[at + 1] in ("like", "of") and at):
             continue
         start, end = at, _listed(tokens, at + 2, nouns)
-        while start and words[start - 1] in _AROUND or is_quality(words[start - 1]) and start:
+        while (start and words[start - 1] in _AROUND) or (is_quality(words[start - 1]) and start):
             start -= 1
         if noun and not tokens[end].mark and words[end] != "and" and not link_at(tokens, end):
             # "The scent of oranges fills the room", "hangs over the table"

@@ -120,7 +120,7 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "sunrise", "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed",
     "pair view", "suite", "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation",
     "direction", "user", "manner", "way", "fashion", "use", "close up", "grain patterns", "windows",
-    "nook", "alcove", "kitchenette", "bistro", "diner", "boutique", "atelier", "parlour", "conservatory", "cubicle"})  # fmt: skip
+    "nook", "alcove", "kitchenette", "bistro", "diner", "boutique", "atelier", "conservatory", "cubicle"})  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents",
     "elements"})  # fmt: skip
@@ -164,14 +164,15 @@ STYLES = frozenset({"4k", "8k", "16k", "hd", "uhd", "hdr", "octane", "artstation
 """Words for how a picture is made, set off behind its scene."""
 SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt",
     "honey", "jam", "oil", "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade",
-    "soda", "chocolate milk", "peelings", "shavings", "sawdust", "crumbs", "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
+    "soda", "chocolate milk", "peelings", "shavings", "sawdust", "crumbs",
+    "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
     "beverage", "greens", "lentil", "broth", "whisky", "whiskey", "rum", "vodka", "gin", "tequila", "brandy", "bourbon",
     "champagne", "cider", "liqueur", "sherry", "sake", "espresso", "latte", "cappuccino", "matcha", "batter", "dough",
     "gravy", "stew", "porridge", "oatmeal", "oats", "curry", "ramen", "quinoa", "couscous", "bean", "chickpea",
     "sprinkles", "jelly", "marmalade", "chutney", "salsa", "guacamole", "crumb", "breadcrumb", "leftovers", "scraps",
     "basil", "herb", "parsley", "rosemary", "thyme", "cilantro", "oregano", "dill", "sage", "mint", "foam", "froth",
     "lather", "suds", "bubbles", "puddle", "snow", "mud", "gravel", "cement", "plaster", "compost", "mulch", "hay",
-    "sawdust", "lint", "ash", "ashes", "smoke", "gasoline", "petrol", "fuel", "varnish", "confetti", "glitter",
+    "lint", "ash", "ashes", "smoke", "gasoline", "petrol", "fuel", "varnish", "confetti", "glitter",
     "potpourri", "junk", "debris", "trinkets", "foil", "fabric", "wrapping", "tinsel", "seeds", "kibble",
     "birdseed"})  # fmt: skip
 """Contents too fine or too wet to be rigid bodies, what covers things, and what is of no one kind."""
