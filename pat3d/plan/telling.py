@@ -41,15 +41,13 @@ class _Teller(Names):
 
     def _tiers(self) -> list[str]:
         """How many shelves furniture is made with, where the prompt says it."""
-        made: dict[str, list[str]] = {}
+        made: dict[tuple[str, str], list[str]] = {}
         for obj in self._plan.objects:
-            for number in (
-                word.removesuffix("-tier") for word in obj.adjectives if word.endswith("-tier") and word[0].isdecimal()
-            ):
-                parts = "boards" if self._base[obj.name].endswith("shelf") else "shelves"
-                made.setdefault(f"{counted(int(number))} {parts}", []).append(obj.name)
-        have = [(self._all(names), parts, len(names) > 1) for parts, names in made.items()]
-        return [f"{them} {'have' if each else 'has'} {parts}{' each' * each}" for them, parts, each in have]
+            parts = "boards" if self._base[obj.name].endswith("shelf") else "shelves"
+            for word in (one for one in obj.adjectives if one[0].isdecimal() and one.endswith("-tier")):
+                made.setdefault((counted(int(word.removesuffix("-tier"))), parts), []).append(obj.name)
+        return [f"{self._all(of)} {'have' if of[1:] else 'has'} {' '.join(told)}{' each' * (len(of) > 1)}"
+                for told, of in made.items()]  # fmt: skip
 
     def _sizes(self) -> list[str]:
         """How large things are that the prompt measures."""

@@ -202,7 +202,7 @@ def test_ordinary_words_are_not_refused(prompt, named):
     ("prompt", "red"),
     [
         ("Six cups in a row, every second one is red.", 3),
-        ("Nine cups stand in a row; every third one red.", 3),
+        ("Nine cups stand in a row; every third one is red.", 3),
         ("Four cups in a row, the outer two cups are red.", 2),
     ],
 )

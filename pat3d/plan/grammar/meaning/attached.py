@@ -73,8 +73,7 @@ def beside_each_other(world: World, below: Item, marks: Sequence[Item]) -> bool:
 def lids_beside(world: World, children: Sequence[Item], vessel: Item) -> None:
     """Put the lids among `children`, which are beside the `vessel` that they close, on what that stands on."""
     edge = world.supports.get(vessel)
-    lids = [item for item in children if world.likely.closes(world.noun(item), world.noun(vessel))]
-    free = [item for item in lids if world.support(item) is None]
+    free = [item for item in children if world.closes([item], vessel) and world.support(item) is None]
     if free and edge is not None and edge.kind == "on":
         world.place(free, "on", [edge.parent], weak=True)
 
@@ -131,16 +130,16 @@ def lay_table(world: World) -> None:
     """Put what a table is laid with, and what is named behind it, on it: "a table, a runner and two candles"."""
     items = world.items()
     tables = [item for item in items if world.is_a(item, _TABLES)]
-    free = [item for item in items if world.support(item) is None and item not in world.grounded | world.floored]
-    placed = {item for edge in world.laterals for item in (edge.child, edge.parent)}
-    placed |= {item for each in world.arranged for item in each.items}
-    first = next((item for item in free if lexicon.LAID & {item.group.said, *singulars(item.group.said)}), None)
-    if len(tables) == 1 and first is not None and items.index(tables[0]) < items.index(first):
-        laid = [item for item in free if items.index(item) >= items.index(first) and item not in placed]
-        laid = [item for item in laid if not (world.on_floor(item) or world.is_a(item, LARGE))]
-        world.place(laid, "on", tables, weak=True)
-        for words in dict.fromkeys(item.group.words for item in laid):
-            world.note(f'assumed: "{words}" on "{tables[0].group.words}"')
+    placed = {item for edge in world.laterals for item in (edge.child, edge.parent)} | world.grounded | world.floored
+    placed |= {*world.supports, *(item for each in world.arranged for item in each.items)}
+    free = [item for item in items[items.index(tables[0]) :] if item not in placed] if len(tables) == 1 else []
+    first = next(
+        (at for at, one in enumerate(free) if lexicon.LAID & {one.group.said, *singulars(one.group.said)}), None
+    )
+    laid = [item for item in free[first:] if not (world.on_floor(item) or world.is_a(item, LARGE))]
+    for item in laid if first is not None else ():
+        world.place([item], "on", tables, weak=True)
+        world.note(f'assumed: "{item.group.words}" on "{tables[0].group.words}"')
 
 
 def _moved(world: World, than: World) -> Sequence[Edge]:

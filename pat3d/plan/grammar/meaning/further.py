@@ -53,10 +53,7 @@ class Further(SharedOut):
         return list(self._maker.make(self._world, more).items)
 
     def _had_like(self, at: int, owners: Sequence[Group]) -> list[Group]:
-        """What the `owners` of the clause before have that chunk `at` names more of elsewhere.
-
-        "A bowl holds an egg. Two are on the table.": two eggs.
-        """
+        """What the `owners` have that chunk `at` has more of: two eggs of "a bowl holds an egg; two are on the table"."""
         world, (link, landmark) = self._world, self._stands(at)
         verb = self._chunks[min(at + 1, len(self._chunks) - 1)]
         agrees = (self._chunks[at].named.count or 1) > 1 or not {*verb.words} & lexicon.OF_SEVERAL
@@ -64,16 +61,18 @@ class Further(SharedOut):
             return []
         edges = [(item, edge.parent) for item, edge in world.supports.items() if not edge.weak]
         for one, other in self.related:
-            said = self._chunks[min(other) - 1].link if other else None
-            on = said is not None and not said.inverse and said.kind in SUPPORT_KINDS
-            if on or (said is not None and said.inverse):
-                items, owner = (one, other) if on else (other, one)
+            said = self._chunks[min(other, default=1) - 1].link
+            if said is not None and (said.inverse or said.kind in SUPPORT_KINDS):
+                items, holders = (other, one) if said.inverse else (one, other)
                 told = self.ref_all([head for head in items if head < at])
-                edges += [(item, each) for item in told for each in self.ref_all([*owner])]
+                edges += [(item, each) for item in told for each in self.ref_all([*holders])]
         likes = list(dict.fromkeys(item.group for item, owner in edges if owner.group in owners))
-        floor = landmark.head in ("floor", "ground")
-        fits = len(likes) == 1 and (floor or world.likely.relation(link, likes[0].noun, landmark.noun) < USUAL)
-        return likes if fits and likes[0] not in owners else []
+        fits = (
+            landmark.head == "floor" or world.likely.relation(link, likes[0].noun, landmark.noun) < USUAL
+            if likes
+            else 0
+        )
+        return likes if fits and len(likes) == 1 and likes[0] not in owners else []
 
     def _another_of(self, at: int, phrase: Phrase) -> list[Item] | None:
         """The next of those that are told of one by one, where "another mug" at chunk `at` is one of them."""

@@ -165,8 +165,8 @@ class Placing(Forming):
     def _across(self, children: list[Item], beside: list[Item]) -> list[Item]:
         """What `beside` stands next to, of which `children` are "on the other side"; that is on its left then."""
         world = self._world
-        told = (edge for edge in reversed(world.laterals) if edge.kind == "next_to" and edge.child in beside)
-        if (edge := next(told, None)) is None or edge.parent in children:
+        edge = next((each for each in world.laterals[::-1] if each.kind == "next_to" and each.child in beside), None)
+        if edge is None or edge.parent in children:
             return []
         world.laterals = [replace(each, kind="left_of") if each is edge else each for each in world.laterals]
         below = world.support(edge.child)

@@ -363,14 +363,11 @@ class Pronouns:
         """What is named last before chunk `at` of what the lids `items` close, or what has "its saucer"."""
         world, own = self._world, any(item.group.phrase.possessive for item in items)
         lids = bool(items) and all(world.is_a(item, lexicon.ON_RIMS) for item in items)
-        carriers = {edge.parent for edge in world.supports.values()}
         told = [each for key in sorted(self.known, reverse=True) if key < at for each in reversed(self.known[key])]
         told += [each for group in reversed(self._earlier) for each in reversed(group.items)]
-        for each in told if lids or own else ():
-            closed = lids and all(world.likely.closes(world.noun(item), world.noun(each)) for item in items)
-            if each not in items and (closed or not (lids or each in carriers)):
-                return [each]
-        return []
+        carriers = {*items, *(() if lids else (edge.parent for edge in world.supports.values()))}
+        free = (each for each in told if each not in carriers and (lids or own))
+        return next(([each] for each in free if not lids or world.closes(items, each)), [])
 
     def _carried(self, items: Sequence[Item]) -> str | None:
         """The words for the one thing that `items` are said to have on or in them, named behind them; None without."""

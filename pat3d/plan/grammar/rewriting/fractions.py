@@ -60,13 +60,9 @@ def in_numbers(text: str, tokens: Sequence[Token], nouns: Nouns) -> tuple[list[T
             notes.append(f"{said} is read as {count} of them{which}" if known else f"{said}: of how many is not said.")
         told = [("one" if count == 1 else str(count)) if known else "some", *(["of"] if ones else [])]
         if every:
-            verb = made[end + 1]
-            are = [
-                replace(verb, text=_OF_SEVERAL.get(verb.text, "are")),
-                *([verb] if is_colour_word(verb.text) else []),
-            ]
-            ones = [replace(made[end], text="them"), *are]
-        made[at - 1 : end + (2 if every else len(ones))] = [*(replace(made[at - 1], text=word) for word in told), *ones]
+            are = replace(made[end + 1], text=_OF_SEVERAL[made[end + 1].text])
+            ones = [replace(made[end], text="them"), are]
+        made[at - 1 : end + len(ones)] = [*(replace(made[at - 1], text=word) for word in told), *ones]
     return made, notes
 
 
@@ -93,7 +89,7 @@ def _every(tokens: Sequence[Token], at: int, nouns: Nouns) -> Share | None:
     """What "every second fig is" at token `at` is a share of: where that is named, and its plural."""
     words = [token.text for token in tokens[at : at + 4]]
     begins = not at or tokens[at - 1].mark or tokens[at - 1].text == "and"
-    if not begins or words[0] != "every" or words[1] not in _EVERY or not (words[3:] and _told(tokens, at + 3)):
+    if not begins or words[0] != "every" or words[1] not in _EVERY or words[3] not in _OF_SEVERAL:
         return None
     found = nouns.match(words[2:3])
     several = plural(words[2]) if found is not None and not found.plural else ""
@@ -102,9 +98,3 @@ def _every(tokens: Sequence[Token], at: int, nouns: Nouns) -> Share | None:
         before = (token.text for token in reversed(tokens[:at]) if singulars(token.text))
         several = next((word for word in before if nouns.match([word])), "")
     return (Fraction(1, _EVERY[words[1]]), at + 2, [replace(tokens[at + 2], text=several)]) if several else None
-
-
-def _told(tokens: Sequence[Token], at: int) -> bool:
-    """Whether token `at` begins what is said of each: "is", or "red" at the end."""
-    word = tokens[at].text
-    return word in _OF_SEVERAL or (is_colour_word(word) and tokens[at + 1].mark)

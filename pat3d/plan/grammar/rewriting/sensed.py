@@ -11,11 +11,10 @@ from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb, is_quality
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_SENSING = frozenset({"smell", "sound", "taste", "feel", "reek", "stink"})
-_SENSED = frozenset({"smell", "smells", "scent", "scents", "aroma", "aromas", "odour", "odor", "fragrance", "sound",
-    "sounds", "noise", "noises", "taste", "flavour", "flavor", "whiff"})  # fmt: skip
-_ARTICLES = lexicon.DETERMINERS | lexicon.POSSESSIVES
-_AROUND = _ARTICLES | lexicon.RELATIVES | lexicon.COPULAS | {"with", "faint", "faintly", "strongly", "slightly"}
+_SENSING = frozenset("smell sound taste feel reek stink".split())
+_SENSED = frozenset("smell scent aroma odour odor fragrance sound sounds noise taste flavour flavor whiff".split())
+_LED = lexicon.DETERMINERS | lexicon.POSSESSIVES
+_AROUND = _LED | lexicon.RELATIVES | lexicon.COPULAS | {"with", "faint", "faintly", "strongly", "slightly"}
 """Words before what is sensed that go with it."""
 
 
@@ -24,33 +23,33 @@ def sensed(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     words = [token.text for token in tokens]
     for at in range(len(words) - 3):
         noun = words[at] in _SENSED and words[at + 1] == "of"
-        verb = base_verb(words[at]) or words[at]
-        if not noun and not (verb in _SENSING and words[at + 1] in ("like", "of") and at):
+        verb = at and (base_verb(words[at]) or words[at]) in _SENSING and words[at + 1] in ("like", "of")
+        if not noun and not verb:
             continue
         start, end = at, _listed(tokens, at + 2, nouns)
-        while (start and words[start - 1] in _AROUND) or (is_quality(words[start - 1]) and start):
+        while start and (words[start - 1] in _AROUND or is_quality(words[start - 1])):
             start -= 1
-        if noun and not tokens[end].mark and words[end] != "and" and not link_at(tokens, end):
-            # "The scent of oranges fills the room", "hangs over the table"
-            end += 1
-        size = link_at(tokens, end)
-        if noun and size and (words[end - 1] in FINITE or is_quality(words[end + size + 1])):
-            # "With the smell of bread in the air, a cup ..."
-            end += size + 2 * is_quality(words[end + size + 1])
+        # "The scent of oranges fills the room", "hangs over the table"
+        end += bool(noun) and not (tokens[end].mark or words[end] == "and" or link_at(tokens, end))
+        size = link_at(tokens, end) if noun else 0
+        where = bool(size) and is_quality(words[end + size + 1])
+        # "With the smell of bread in the air, a cup ..."
+        end += size + 2 * where if where or words[end - 1] in FINITE else 0
         end += words[end] == "," and (not start or words[start - 1] == ",")
         return [(start - (start > 0 and words[start - 1] == "," and tokens[end].mark), end)]
     return []
 
 
-def _listed(tokens: Sequence[Token], at: int, nouns: Nouns) -> int:
-    """The end of the list of what is sensed from token `at` on, which goes on as it begins, with articles or none."""
-    led, end = tokens[at].text in _ARTICLES, at + 1
-    while end < len(tokens) - 1:
-        joint = 0 if tokens[end].text not in (",", "and") else 1 + (tokens[end + 1].text == "and")
-        alike = (tokens[end + joint].text in _ARTICLES) == led and not (led and tokens[end].text == ",")
-        ends = (tokens[end].mark and not joint) or tokens[end].text in FINITE | _AROUND or link_at(tokens, end)
-        verb = not joint and base_verb(tokens[end].text) and not nouns.match([tokens[end].text])
-        if ends or verb or (joint and not alike):
+def _listed(tokens: Sequence[Token], end: int, nouns: Nouns) -> int:
+    """The end of the list from token `end` on of what is sensed, which goes on with articles or without any."""
+    led, words = tokens[end].text in _LED, [token.text for token in tokens]
+    while (end := end + 1) < len(tokens) - 1:
+        joint = 0 if words[end] not in (",", "and") else 1 + (words[end + 1] == "and")
+        alike = (words[end + joint] in _LED) == led and not (led and words[end] == ",")
+        verb = words[end] in FINITE or (base_verb(words[end]) and not nouns.match([words[end]]))
+        if (joint and not alike) or (not joint and (verb or tokens[end].mark or words[end] in _AROUND)):
             break
-        end += joint + led if joint else 1
+        if link_at(tokens, end):
+            break
+        end += joint + led - 1 if joint else 0
     return end

@@ -58,25 +58,21 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _parts_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a pan on the left burner and a pot on the right one" as "... on the right burner".
+    """`tokens` with "on the left burner and a pot on the right one" as "... on the right burner".
 
-    "A pot on the one behind it" is "behind it on the burner".
+    "A pot on the one behind it" is "behind it".
     """
-    words = [token.text for token in tokens]
+    words, part = [token.text for token in tokens], ""
     named = {found.noun for word in words if (found := nouns.match([word])) is not None}
-    part = ""
     for at, word in enumerate(words):
-        lead = next((n for n in range(at - 1, max(at - 4, 0), -1) if words[n] == "the"), 0)
-        upon = lead and words[lead - 1] == "on" and not any(nouns.match([each]) for each in words[lead:at])
-        if upon and {*lexicon.PARTS_OF.get(word, ())} & named:
+        lead = next((n for n in range(at - 1, max(at - 4, 0), -1) if words[n] == "the" and words[n - 1] == "on"), 0)
+        if lead and {*lexicon.PARTS_OF.get(word, ())} & named:
             part = word
-        elif upon and part and word == "one":
-            size = link_at(tokens, at + 1)
-            beside = tokens[at + 1 : at + 2 + size] if size and words[at + 1 + size] == "it" else []
+        elif lead and part and word == "one":
             which = [token for token in tokens[lead:at] if token.text != "other"]
-            stands = bool(beside) and words[lead - 2] in STANDING
-            again = [] if stands else [tokens[lead - 1], *which, replace(tokens[at], text=part)]
-            return _parts_again([*tokens[: lead - 1], *beside, *again, *tokens[at + 1 + len(beside) :]], nouns)
+            beside = link_at(tokens, at + 1) and "it" in words[at + 2 : at + 4]
+            again = [] if beside else [tokens[lead - 1], *which, replace(tokens[at], text=part)]
+            return _parts_again([*tokens[: lead - 1], *again, *tokens[at + 1 :]], nouns)
     return list(tokens)
 
 

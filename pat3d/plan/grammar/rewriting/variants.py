@@ -119,23 +119,9 @@ _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "sp
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 
-def _outer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "the outer two cups" as "the outer two", and "the two outer cups" as "the two outer ones"."""
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        before = [other.text for other in tokens[max(at - 2, 0) : at]]
-        found = nouns.match([token.text]) if "outer" in before else None
-        ends = found is not None and (tokens[at + 1].mark or tokens[at + 1].text in FINITE)
-        if found is None or not (found.plural and ends):
-            made.append(token)
-        elif before[-1] == "outer":
-            made.append(replace(token, text="ones"))
-    return made
-
-
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_outer(_alike(_hued(_begun(tokens)), nouns), nouns))
+    usual = _plain(_alike(_hued(_begun(tokens)), nouns))
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 

@@ -77,6 +77,7 @@ def normalise(prompt: str) -> str:
     text = re.sub(r"\bspaced (?:about )?(?=\d)", "", text)
     # "Forks on display" are shown, and stand on no screen.
     text = re.sub(r" (?:(?:are|is) )?on (?:display|show)\b", "", text)
+    text = re.sub(r"\b(?:outer two|two outer) (?!ones)[a-z]+s(?= (?:are|have|hold|stand)\b)", "outer two", text)
     text = re.sub(r"\b3/4(?= view| angle)", "three-quarter", text)
     text = re.sub(r"\b([^\W\d_]+) (\d{1,2})[x\u00d7](?=[,.;]| and\b|$)", r"\2 \1", text)
     text = re.sub(_LETTERS, _in_between, text)
@@ -105,11 +106,6 @@ def _quotient(found: re.Match[str]) -> str:
     return f"{int(found[1]) / int(found[2]):.4g}"
 
 
-def _unaccented(word: str) -> str:
-    """`word` with "café" as "cafe"."""
-    return "".join(each for each in unicodedata.normalize("NFKD", word) if not unicodedata.combining(each))
-
-
 def tokenise(text: str) -> list[Token]:
     """The words and marks of normalised `text`, ending in a full stop."""
     tokens: list[Token] = []
@@ -118,7 +114,9 @@ def tokenise(text: str) -> list[Token]:
         start, end = found.span()
         if found.lastgroup in ("word", "number"):
             words += 1
-            word = _unaccented(found.group().lower())
+            # "Café" is read as "cafe".
+            plain = unicodedata.normalize("NFKD", found.group().lower()).encode("ascii", "ignore").decode()
+            word = plain or found.group().lower()
             word = MISSPELLED.get(word, word)
             if word.endswith("'s") and len(word) > 2:
                 tokens.append(Token(text=word[:-2], start=start, end=end - 2, number=words))
