@@ -53,7 +53,7 @@ class Further(SharedOut):
         return list(self._maker.make(self._world, more).items)
 
     def _had_like(self, at: int, owners: Sequence[Group]) -> list[Group]:
-        """What the `owners` have that chunk `at` has more of: two eggs of "a bowl holds an egg; two are on the table"."""
+        """What the `owners` have that chunk `at` has more of: "a bowl holds an egg; two are on the table" are eggs."""
         world, (link, landmark) = self._world, self._stands(at)
         verb = self._chunks[min(at + 1, len(self._chunks) - 1)]
         agrees = (self._chunks[at].named.count or 1) > 1 or not {*verb.words} & lexicon.OF_SEVERAL
@@ -67,12 +67,8 @@ class Further(SharedOut):
                 told = self.ref_all([head for head in items if head < at])
                 edges += [(item, each) for item in told for each in self.ref_all([*holders])]
         likes = list(dict.fromkeys(item.group for item, owner in edges if owner.group in owners))
-        fits = (
-            landmark.head == "floor" or world.likely.relation(link, likes[0].noun, landmark.noun) < USUAL
-            if likes
-            else 0
-        )
-        return likes if fits and len(likes) == 1 and likes[0] not in owners else []
+        costs = [world.likely.relation(link, one.noun, landmark.noun) for one in likes if one not in owners]
+        return likes if len(costs) == len(likes) == 1 and (landmark.head == "floor" or costs[0] < USUAL) else []
 
     def _another_of(self, at: int, phrase: Phrase) -> list[Item] | None:
         """The next of those that are told of one by one, where "another mug" at chunk `at` is one of them."""

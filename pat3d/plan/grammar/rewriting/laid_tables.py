@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.english import plural
 from pat3d.plan.grammar.rewriting.enumerated import items_of
 from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
@@ -69,24 +68,15 @@ def _laid(tokens: list[Token], nouns: Nouns) -> tuple[list[Token], list[Sequence
 
 
 def _places(tokens: list[Token]) -> tuple[list[Token], list[Sequence[Token]]] | None:
-    """`tokens` "lay two places at the table" as "two plates, two forks and two knives on the table"; None for others.
-
-    Behind a colon stands what else a place has: "lay two places: a plate and a glass each".
-    """
+    """`tokens` "lay two places at the table" as "two plates and two forks and two knives on the table"."""
     words = [token.text for token in tokens]
-    verb = next((len(said) for said in _LAYING if tuple(words[: len(said)]) == said), 0)
-    end = verb + 2 + (words[verb + 2 : verb + 3] in (["setting"], ["settings"]))
-    if not verb or not numeral(words[verb]) or words[verb + 1] not in ("place", "places", "covers"):
+    end = 3 + (words[3:4] in (["setting"], ["settings"]))
+    if words[0] not in ("lay", "set") or not numeral(words[1]) or words[2] not in ("place", "places") or ":" in words:
         return None
-    colon = words[end] == ":"
-    told = [[one for one in item if one.text not in ("a", "an", "each")] for item in items_of(tokens[end + 1 : -1])]
-    setting = [[replace(tokens[verb], text=word)] for word in ("plate", "fork", "knife")]
-    made: list[Token] = []
-    for *described, name in told if colon else setting:
-        joint = [replace(tokens[verb], text="and")] if made else []
-        made += [*joint, tokens[verb], *described, replace(name, text=plural(name.text))]
-    rest = [] if colon else [replace(one, text="on") if one.text == "at" else one for one in tokens[end:-1]]
-    return [*made, *rest, tokens[-1]], [] if colon else [tokens[verb:end]]
+    setting = [replace(tokens[1], text=word) for word in ("plates", "and", "forks", "and", "knives")]
+    laid = [each for thing in setting for each in ([thing] if thing.text == "and" else [tokens[1], thing])]
+    rest = [replace(one, text="on") if one.text == "at" else one for one in tokens[end:]]
+    return [*laid, *rest], [tokens[1:end]]
 
 
 def _named(item: Sequence[Token], nouns: Nouns) -> int:

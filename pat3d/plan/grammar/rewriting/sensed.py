@@ -11,8 +11,9 @@ from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.unmade import base_verb, is_quality
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_SENSING = frozenset("smell sound taste feel reek stink".split())
-_SENSED = frozenset("smell scent aroma odour odor fragrance sound sounds noise taste flavour flavor whiff".split())
+_SENSING = frozenset({"smell", "sound", "taste", "feel", "reek", "stink"})
+_SENSED = frozenset({"smell", "scent", "aroma", "odour", "odor", "fragrance", "sound", "sounds", "noise", "taste",
+    "flavour", "flavor", "whiff"})  # fmt: skip
 _LED = lexicon.DETERMINERS | lexicon.POSSESSIVES
 _AROUND = _LED | lexicon.RELATIVES | lexicon.COPULAS | {"with", "faint", "faintly", "strongly", "slightly"}
 """Words before what is sensed that go with it."""
