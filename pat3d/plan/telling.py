@@ -43,7 +43,7 @@ class _Teller(Names):
         """How many shelves furniture is made with, where the prompt says it."""
         made: dict[tuple[str, str], list[str]] = {}
         for obj in self._plan.objects:
-            parts = "boards" if self._base[obj.name].endswith("shelf") else "shelves"
+            parts = "boards" if self._base[obj.name].split()[-1] == "shelf" else "shelves"
             for word in (one for one in obj.adjectives if one[0].isdecimal() and one.endswith("-tier")):
                 made.setdefault((counted(int(word.removesuffix("-tier"))), parts), []).append(obj.name)
         return [f"{self._all(of)} {'have' if of[1:] else 'has'} {' '.join(told)}{' each' * (len(of) > 1)}"
