@@ -67,5 +67,5 @@ def _head(tokens: Sequence[Token], at: int, nouns: Nouns, *, single: bool) -> tu
         found = nouns.match(words[:size])
         one = singulars(words[size - 1]) if len(words) >= size else ()
         if found is not None and (one if found.plural else single):
-            return size, [*words[: size - 1], one[0] if found.plural else words[size - 1]]
+            return size, [*words[: size - 1], next(iter(one if found.plural else ()), words[size - 1])]
     return 0, []
