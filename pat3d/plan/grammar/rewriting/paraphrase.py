@@ -83,7 +83,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
-    tokens = stood_where(covering(opened(stated(on_top(upon_it(tokens))), nouns), nouns), nouns)
+    tokens = stood_where(covering(opened(stated(on_top(upon_it(tokens), nouns)), nouns), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(formed(emptied(tokens)), nouns)), nouns)
     refuse_negations(tokens)

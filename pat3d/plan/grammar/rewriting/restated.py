@@ -207,7 +207,7 @@ def upon_it(tokens: Sequence[Token]) -> list[Token]:
     return list(tokens)
 
 
-def on_top(tokens: Sequence[Token]) -> list[Token]:
+def on_top(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a crate, on top a lamp" as "... on top of it a lamp".
 
     Of "a crate under the table and a lamp on top" the lamp is on top of the table.
@@ -224,7 +224,11 @@ def on_top(tokens: Sequence[Token]) -> list[Token]:
         last = joint > under and not any(link_at(tokens, n) for n in range(joint + 1, at))
         if words[at : at + 2] == ["on", "top"] and (fronts or (listed and last)):
             the, *name = tokens[under + 1 : joints[0]] if under >= 0 else tokens[at : at + 1]
-            owner = [replace(the, text="the" if under >= 0 else "it"), *name]
+            found = nouns.match([name[-1].text]) if name else None
+            level = found is not None and nouns.of_class(found.noun, lexicon.LEVEL)
+            if not (fronts or level):
+                continue
+            owner = [replace(the, text="the"), *name] if level else [replace(the, text="it")]
             return [*tokens[: at + 2], replace(tokens[at + 1], text="of"), *owner, *tokens[at + 2 :]]
     return list(tokens)
 

@@ -24,7 +24,8 @@ def sensed(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     words = [token.text for token in tokens]
     for at in range(len(words) - 3):
         noun = words[at] in _SENSED and words[at + 1] == "of"
-        verb = at and (base_verb(words[at]) or words[at]) in _SENSING and words[at + 1] in ("like", "of")
+        doing = base_verb(words[at]) or words[at].removesuffix("s")
+        verb = at and doing in _SENSING and words[at + 1] in ("like", "of") and words[at - 1] not in lexicon.COMMANDS
         if not noun and not verb:
             continue
         start, end = at, _listed(tokens, at + 2, nouns)
