@@ -25,7 +25,7 @@ def sensed(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     for at in range(len(words) - 3):
         noun = words[at] in _SENSED and words[at + 1] == "of"
         doing = base_verb(words[at]) or words[at].removesuffix("s")
-        verb = at and doing in _SENSING and words[at + 1] in ("like", "of") and words[at - 1] not in lexicon.COMMANDS
+        verb = at and doing in _SENSING and words[at + 1] in ("like", "of") and words[at - 1] not in ("i", "we")
         if not noun and not verb:
             continue
         start, end = at, _listed(tokens, at + 2, nouns)
