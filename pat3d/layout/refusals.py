@@ -56,9 +56,10 @@ def no_room(
     width, depth = 2 * np.array(region.surface.half_size)
     beside = f" beside {listed(before)}" if before else ""
     tall = f", {region.height:.2f} m high" if region.enclosed else ""
+    whole = carrier.removeprefix("the ").rpartition(" shelf of ")[2]
     fewer = "" if most is None else f" {most[0]} of the {most[1]} that stand so have room."
     return LayoutError(
         f'"{group.name}" ({group.size[0]:.2f} x {group.size[1]:.2f} x {group.size[2]:.2f} m) finds no room on '
         f'"{carrier}" ({width:.2f} x {depth:.2f} m{tall}){beside}. Fewer or smaller objects, fewer relations, or a '
-        f'larger "{carrier}", would fit.{fewer} Nothing was written.'
+        f'larger "{whole}", would fit.{fewer} Nothing was written.'
     )

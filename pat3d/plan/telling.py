@@ -37,8 +37,18 @@ class _Teller(Names):
 
     def told(self) -> str:
         sentences = [*self._supports(), *self._doors(), *self._rows(), *self._arranged(), *self._laterals()]
-        sentences += [*self._postures(), *self._sizes(), *self._task()]
+        sentences += [*self._postures(), *self._tiers(), *self._sizes(), *self._task()]
         return " ".join(f"{sentence[0].upper()}{sentence[1:]}." for sentence in sentences)
+
+    def _tiers(self) -> list[str]:
+        """How many shelves furniture is made with, where the prompt says it."""
+        made: dict[tuple[str, str], list[str]] = {}
+        for obj in self._plan.objects:
+            parts = "boards" if self._base[obj.name].split()[-1] == "shelf" else "shelves"
+            for word in (one for one in obj.adjectives if one[0].isdecimal() and one.endswith("-tier")):
+                made.setdefault((counted(int(word.removesuffix("-tier"))), parts), []).append(obj.name)
+        return [f"{self._all(of)} {'have' if of[1:] else 'has'} {' '.join(told)}{' each' * (len(of) > 1)}"
+                for told, of in made.items()]  # fmt: skip
 
     def _sizes(self) -> list[str]:
         """How large things are that the prompt measures."""

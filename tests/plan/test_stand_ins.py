@@ -27,7 +27,7 @@ PLANNER = GrammarPlanner()
 TABLE = Path(stand_ins.__file__).with_suffix(".txt").read_text(encoding="utf-8").splitlines()
 NAMED_SO = {"ice cube", "grapefruit", "lettuce", "display", "spice rack"}
 """What the catalogue makes as another thing without a word."""
-TWO_SENSES = {"straw", "skewer", "display", "chicken", "roast"}
+TWO_SENSES = {"straw", "skewer", "display", "chicken", "roast", "plug"}
 """A thing as well as a material, a verb or a place, or told by its company."""
 OWN_IN_PLURAL = {"deer", "cracker", "tea bag", "facial tissue", "pipette tip", "earphone", "display"}
 """What the catalogue has a noun for where there are several, mostly a packet; and what has no plural of its own."""

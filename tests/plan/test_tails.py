@@ -53,7 +53,7 @@ def test_a_later_sentence_of_a_quality_is_set_aside(sentence, noted):
         ("A plum in a bowl, guarded by a dragonfly.", "dragonfly"),
         ("A rug held down by an anvil.", "anvil"),
         ("A mug next to a jar, humming beside a lathe.", "lathe"),
-        ("A cake on a stand.", "stand"),
+        ("A plum on a stand.", "stand"),
         ("A bucket and a banana peel.", "peel"),
         ("A plum lies in a bowl. A weathervane delights the eye.", "weathervane"),
         ("A mug is not on the table.", '"not"'),

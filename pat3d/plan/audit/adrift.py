@@ -13,6 +13,8 @@ _BEARING = frozenset({
     "dresser", "bench", "tv stand", "workbench", "kitchen island", "sofa", "bed",
 })  # fmt: skip
 """Furniture on which small things are, where a sentence has both."""
+_STOPS = frozenset(".;!?\n")
+_VESSELS = frozenset({"tray", "box", "crate", "basket", "bin", "bowl", "plate", "cutting board", "mat", "toolbox"})
 _ON_FLOORS = frozenset({
     "lamp", "floor lamp", "plant", "basket", "laundry basket", "bin", "bucket", "ball", "fire extinguisher",
     "suitcase", "backpack", "barrel", "crate", "ladder", "broom", "mop", "easel", "tire", "traffic cone",
@@ -27,14 +29,24 @@ def adrift(it: Compared, found: Sequence[str]) -> Iterator[str]:
     nouns = {obj.name: obj.noun for obj in it.plan.objects}
     tops = any(noun in _BEARING and it.support(name) is None for name, noun in nouns.items())
     asked = bool(it.tasks.strip() or it.undone)
-    if not tops or asked or FLOOR & {*it.said.words} or not it.said.claims:
+    alone = _by_itself(it)
+    if not (alone or (tops and it.said.claims)) or asked or FLOOR & {*it.said.words}:
         return
     loose = [obj for obj in it.plan.objects if _on_ground(it, obj) and not _beside_furniture(it, obj)]
+    loose = [obj for obj in loose if obj.name not in alone]
     quoted = " ".join((it.quoted, *found)).lower()
     for phrase in dict.fromkeys(obj.phrase.lower() for obj in loose if obj.phrase):
         named = [mention.text for mention in it.said.mentions if phrase.endswith(mention.text)]
         if not any(f'{said}"' in quoted for said in (phrase, *named)):
             yield f'"{phrase}": where is not said; on the ground'
+
+
+def _by_itself(it: Compared) -> set[str]:
+    """What could carry the rest and is a sentence of its own: the tray of "5 screws, 1 wrench. Tray."."""
+    words = [".", *it.said.words, "."]
+    whole = [one for one in it.said.mentions if {words[one.first][0], words[one.end + 1][0]} <= _STOPS]
+    named = {obj.name for one in whole for obj in it.which(one) if obj.noun in _BEARING | _VESSELS}
+    return named if len(it.plan.objects) > len(named) else set()
 
 
 def _on_ground(it: Compared, obj: PlannedObject) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from pat3d.plan.audit.compared import KINDS, Compared
 from pat3d.plan.audit.text import Claim, Mention
@@ -13,6 +14,7 @@ from pat3d.plan.audit.words import (
     FARTHEST,
     FINITE,
     HOLLOW,
+    NUMBERS,
     OPENING,
     PRECISELY,
     REACHING,
@@ -64,7 +66,8 @@ def whose_of(it: Compared, claim: Claim) -> set[str]:
 def _here(it: Compared, claim: Claim) -> set[str]:
     """The objects that `claim` may be said of: those named with it, and where it is a pronoun's, before it."""
     words = set(it.said.words)
-    reach = bool(words & REACHING) or ":" in words
+    alone = any(one in NUMBERS and two in FINITE for one, two in pairwise(it.said.words))
+    reach = bool(words & REACHING) or ":" in words or alone
     named = {obj.name for mention in it.said.mentions for obj in it.of(mention)}
     return {obj.name for obj in it.plan.objects if obj.name not in named} | {
         obj.name

@@ -152,7 +152,8 @@ def _gapped(it: Compared) -> Iterator[tuple[int, str]]:
                 continue
             first, second = ({rel.parent for rel in it.plan.relations if rel.supports and rel.child in {
                 obj.name for obj in it.which(one)}} for one in (claim.of, thing))  # fmt: skip
-            if first & second and not it.named(thing.text):
+            level = words[at + 1] in ("top", "middle", "bottom", "upper", "lower")
+            if first & second and not (level or it.named(thing.text)):
                 yield at, f'not as said: "{" ".join(words[at : thing.end])}"; it is where "{claim.of.text}" is'
             break
 

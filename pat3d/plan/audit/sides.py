@@ -49,7 +49,8 @@ def _unanswered(it: Compared) -> Iterator[tuple[int, str]]:
         start = max((n + 1 for n in range(at) if words[n] in _STOPS), default=0)
         named = [mention for mention in it.said.mentions if start <= mention.start <= at + 2]
         names = {obj.name for mention in named for obj in it.which(mention)}
-        if not named or ({"it", "them", "one", "other"} | THINGS) & {*words[start:at], after}:
+        joined = after == "and" and bool({*words[at + 2 : at + 4]} & _AXES.keys())
+        if not named or joined or ({"it", "them", "one", "other"} | THINGS) & {*words[start:at], after}:
             names = {obj.name for obj in it.plan.objects}
         told = any(kind in _AXES[word] and {a, b} & names for a, kind, b in it.edges)
         told = told or any(one.kind in _PLACES and names & {*one.objects, *one.of} for one in it.plan.arrangements)

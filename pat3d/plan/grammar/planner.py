@@ -47,6 +47,7 @@ from pat3d.plan.grammar.rewriting.paraphrase import plainer
 from pat3d.plan.grammar.rewriting.plain_words import in_plain_words
 from pat3d.plan.grammar.rewriting.remarks import Remarks
 from pat3d.plan.grammar.rewriting.rows import told_rows
+from pat3d.plan.grammar.rewriting.sensed import sensed
 from pat3d.plan.grammar.rewriting.sentences import check_language, sentences
 from pat3d.plan.grammar.rewriting.similes import similes
 from pat3d.plan.grammar.rewriting.tails import Tails
@@ -202,7 +203,7 @@ class GrammarPlanner(Sparing):
         """
         if clause.first:
             world.settled, world.emptied = len(world.groups), []
-        for find in (partial(lettering, text), partial(similes, nouns=self._nouns)):
+        for find in (partial(lettering, text), partial(sensed, nouns=self._nouns), partial(similes, nouns=self._nouns)):
             spans = find(clause.tokens)
             for start, end in spans:
                 world.note(f'not modelled: "{quoted(text, clause.tokens[start:end]).strip(" ,")}"')

@@ -20,6 +20,7 @@ _SUPPORTING = (
     "cylinder", "plank", "cardboard sheet", "towel", "napkin", "steak", "cookie", "waffle", "storage box",
     "wood block", "toy brick", "jenga block", "stack of paper", "dresser", "toolbox", "cracker box",
     "treasure chest", "cardboard box", "paint can", "newspaper", "mouse pad", "scale", "kitchen scale",
+    "arch",
 )  # fmt: skip
 """Flat enough to carry one thing, besides furniture and dishes."""
 _PANS = ("pan", "frying pan", "skillet", "griddle")
@@ -85,7 +86,7 @@ class Plausible:
 
     def on(self, child: str, parent: str) -> float:
         """Of `child` resting on `parent`."""
-        if self._closes(child, parent):
+        if self.closes(child, parent):
             return 0.0
         if self.is_a(child, lexicon.ON_RIMS):
             return 0.9 if not self.floor(parent) else 0.45
@@ -132,7 +133,7 @@ class Plausible:
         """Whether `child` is what food such as `parent` is topped with or covered in."""
         return self.is_a(parent, TOPPED) and self.is_a(child, _TOPPINGS)
 
-    def _closes(self, child: str, parent: str) -> bool:
+    def closes(self, child: str, parent: str) -> bool:
         """Whether `child` is what closes `parent`: the lid of a jar, the cap of a bottle."""
         if child == "cap":
             return self.is_a(parent, lexicon.PARTS_OF["cap"])
@@ -219,7 +220,7 @@ class Plausible:
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
-        if self._closes(child, parent):
+        if self.closes(child, parent):
             return 0.0
         if link.manner == "hold" and self.is_a(parent, lexicon.FIGURES) and not self.floor(child):
             return 0.3

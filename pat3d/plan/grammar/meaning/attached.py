@@ -7,9 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.entities import Edge, Item
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.sizes import too_large
 
 _BORNE = 1.2
@@ -17,6 +19,8 @@ _BORNE = 1.2
 _REACHING = ("tree", "rod", "lamp", "floor lamp", "faucet", "umbrella", "monitor", "tv", "clock", "mirror",
              "picture frame", "shelf")  # fmt: skip
 """What is above other things without resting on them."""
+_TABLES = ("table", "coffee table", "side table", "counter", "kitchen island")
+"""What is laid for a meal."""
 _FOR_ONE = ("tripod", "easel", "coaster", "saucer", "candlestick")
 """What carries one thing, and what is slender besides."""
 
@@ -66,12 +70,20 @@ def beside_each_other(world: World, below: Item, marks: Sequence[Item]) -> bool:
     )
 
 
+def lids_beside(world: World, children: Sequence[Item], vessel: Item) -> None:
+    """Put the lids among `children`, which are beside the `vessel` that they close, on what that stands on."""
+    edge = world.supports.get(vessel)
+    free = [item for item in children if world.closes([item], vessel) and world.support(item) is None]
+    if free and edge is not None and edge.kind == "on":
+        world.place(free, "on", [edge.parent], weak=True)
+
+
 def bears(world: World, below: Item, above: Item) -> bool:
     """Whether what is said to be above `below` is on it, and neither hangs nor reaches over it."""
     noun, load = world.noun(below), world.noun(above)
     solid = not world.likely.hollow(noun) and not world.on_floor(below)
     stays = solid and world.likely.on(load, noun) <= _BORNE and not world.is_a(above, _REACHING)
-    return world.is_a(below, lexicon.STACKABLE) or stays
+    return world.is_a(below, lexicon.STACKABLE) or (stays and not world.is_a(above, ("arch",)))
 
 
 def crowding(world: World, children: Sequence[Item], parent: Item) -> float:
@@ -112,6 +124,22 @@ def put_carriers(world: World, named: Sequence[Item], table: Item) -> None:
         carried = bool(edges) and all(edge.kind == "on" and not edge.weak for edge in edges)
         if carried and not (placed or soft or beside):
             world.place([lowest], "on", [table], weak=True)
+
+
+def lay_table(world: World) -> None:
+    """Put what a table is laid with, and what is named behind it, on it: "a table, a runner and two candles"."""
+    items = world.items()
+    tables = [item for item in items if world.is_a(item, _TABLES)]
+    placed = {item for edge in world.laterals for item in (edge.child, edge.parent)} | world.grounded | world.floored
+    placed |= {*world.supports, *(item for each in world.arranged for item in each.items)}
+    free = [item for item in items[items.index(tables[0]) :] if item not in placed] if len(tables) == 1 else []
+    first = next(
+        (at for at, one in enumerate(free) if lexicon.LAID & {one.group.said, *singulars(one.group.said)}), None
+    )
+    laid = [item for item in free[first:] if not (world.on_floor(item) or world.is_a(item, LARGE))]
+    for item in laid if first is not None else ():
+        world.place([item], "on", tables, weak=True)
+        world.note(f'assumed: "{item.group.words}" on "{tables[0].group.words}"')
 
 
 def _moved(world: World, than: World) -> Sequence[Edge]:

@@ -6,7 +6,7 @@ from collections import Counter
 
 from pat3d.errors import PromptError
 from pat3d.plan.drawers import DRAWERS
-from pat3d.plan.grammar.meaning import apart, arranging, covers, orders, ranks
+from pat3d.plan.grammar.meaning import apart, arranging, attached, covers, orders, ranks
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item, Sided
 from pat3d.plan.grammar.meaning.undone import open_or_shut
 from pat3d.plan.grammar.meaning.world import World
@@ -68,6 +68,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
     _widen_bowls(world, nouns)
     ranks.settle(world)
     _pair_sides(world)
+    attached.lay_table(world)
     _share_supports(world)
     arranging.settle(world, prompt)
     orders.settle(world, prompt)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.matching import position
 from pat3d.plan.grammar.meaning.shared_out import SharedOut
@@ -26,6 +27,7 @@ class Further(SharedOut):
         named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
         before = [item.group for item in self._world.subject[:1]] or self._world.groups[-1:]
         groups = [named[0][0].group] if named else before
+        groups = self._had_like(at, groups[:1]) or groups
         if (alike := self._carrier_like(at)) is not None:
             groups = [alike]
         counted = [group for group in reversed(self._world.groups) if len(group.items) > 1 and group.counted]
@@ -38,6 +40,10 @@ class Further(SharedOut):
         if not groups or groups[0].proxy:
             return []
         like, own = replace(groups[0].phrase.modifiers, postures=()), phrase.modifiers
+        alike = {one.modifiers.colours for one in self._world.groups if one.noun == groups[0].noun and not one.replaced}
+        if len(alike) > 1:
+            # "A red box, a blue one beside it, another on top": of which colour is not said.
+            like = replace(like, colours=())
         told = ("colours", "palette", "palette_word", "material", "material_word", "size_word", "adjectives")
         # "Another red one", "another small one"
         like = replace(like, **{name: getattr(own, name) for name in told if getattr(own, name)})
@@ -45,6 +51,24 @@ class Further(SharedOut):
         more = replace(groups[0].phrase, words=phrase.words, count=phrase.count or 1, plural=False, height=None,
                        definite=False, modifiers=like.marked_as(phrase.modifiers))  # fmt: skip
         return list(self._maker.make(self._world, more).items)
+
+    def _had_like(self, at: int, owners: Sequence[Group]) -> list[Group]:
+        """What the `owners` have that chunk `at` has more of: "a bowl holds an egg; two are on the table" are eggs."""
+        world, (link, landmark) = self._world, self._stands(at)
+        verb = self._chunks[min(at + 1, len(self._chunks) - 1)]
+        agrees = (self._chunks[at].named.count or 1) > 1 or not {*verb.words} & lexicon.OF_SEVERAL
+        if verb.kind != "verb" or not agrees or link is None or landmark is None or link.kind not in SUPPORT_KINDS:
+            return []
+        edges = [(item, edge.parent) for item, edge in world.supports.items() if not edge.weak]
+        for one, other in self.related:
+            said = self._chunks[min(other, default=1) - 1].link
+            if said is not None and (said.inverse or said.kind in SUPPORT_KINDS):
+                items, holders = (other, one) if said.inverse else (one, other)
+                told = self.ref_all([head for head in items if head < at])
+                edges += [(item, each) for item in told for each in self.ref_all([*holders])]
+        likes = list(dict.fromkeys(item.group for item, owner in edges if owner.group in owners))
+        costs = [world.likely.relation(link, one.noun, landmark.noun) for one in likes if one not in owners]
+        return likes if len(costs) == len(likes) == 1 and (landmark.head == "floor" or costs[0] < USUAL) else []
 
     def _another_of(self, at: int, phrase: Phrase) -> list[Item] | None:
         """The next of those that are told of one by one, where "another mug" at chunk `at` is one of them."""

@@ -123,12 +123,21 @@ class Holding(Doing):
         """
         if self._world.is_a(owner, _BASINS) and self._world.is_a(self._said.ref(head)[0], _ABOUT_BASINS):
             return True
+        if self._world.is_table(owner) and self._on_wall(self._said.ref(head)[0]):
+            return True
         told = [other for one, other in self._said.related if head in one]
         places = {self._chunks[each].named.head for other in told for each in other}
         if self._world.is_a(owner, lexicon.SHELVES, lexicon.SHUT):
             return False
         stands = self._world.on_floor(owner) and not self._world.is_a(owner, lexicon.HOLLOW)
         return bool(places & _WALLS) or (stands and bool(places & {"floor", "ground"}))
+
+    def _on_no_wall(self, items: list[Item]) -> list[Item]:
+        """The lamp of "a wall clock and a lamp on the table"; all where nothing else is named."""
+        return [item for item in items if not self._on_wall(item)] or items
+
+    def _on_wall(self, item: Item) -> bool:
+        return self._world.is_a(item, lexicon.ON_WALLS) or "wall" in item.group.words.lower().split()
 
     def _beside_both(self, fact: tuple, facts: Sequence[tuple]) -> bool:
         """Whether `fact` has what something is with on both sides: "a nightstand with a lamp on each side of it"."""

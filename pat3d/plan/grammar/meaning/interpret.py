@@ -13,7 +13,7 @@ from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
-from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position
+from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position, ranked
 from pat3d.plan.grammar.meaning.objects import multiply, recount, tell_colours
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.words import lexicon
@@ -298,6 +298,7 @@ class Interpreter(Holding):
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
             children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
+        children = self._on_no_wall(children) if link.kind == "on" and self._world.is_table(parents[0]) else children
         parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)
         # One thing is beside several at once: "a ball to the left of both boxes".
@@ -305,6 +306,7 @@ class Interpreter(Holding):
         carrying = having or link.kind in SUPPORT_KINDS or link.manner == "under"
         of_all = self._said.speaks_of_each(parent_heads, carrying=carrying)
         spoken = [self._chunks[head].named for head in parent_heads]
+        of_all = of_all or (link.kind in SUPPORT_KINDS and ranked(spoken))
         if of_all and on_top_of_both(self._world, self._chunks[at].words, spoken, children, parents):
             link = replace(link, says="across")
         had = share(self._world, link, parents, children, all_of=of_all, having=having)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item
 from pat3d.plan.grammar.meaning.world import World
@@ -35,6 +37,11 @@ def position(phrase: Phrase) -> str:
     """The place by which `phrase` tells its object from others of the kind ("left"), or nothing."""
     found = next((word for word in phrase.modifiers.adjectives if word in PLACES), "")
     return SAME.get(found, found) if phrase.definite else ""
+
+
+def ranked(phrases: Sequence[Phrase]) -> bool:
+    """Whether `phrases` tell likes by their places: a lamp "on the left and the right table" is one on each."""
+    return len(phrases) > 1 and len({one.noun for one in phrases}) == 1 and all(map(position, phrases))
 
 
 def is_numbered(phrase: Phrase) -> bool:

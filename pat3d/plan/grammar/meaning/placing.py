@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.plausible import LARGE, LEAFY
-from pat3d.plan.grammar.meaning.attached import put_carriers
+from pat3d.plan.grammar.meaning.attached import has_room, put_carriers
 from pat3d.plan.grammar.meaning.described import LEAVES, describe
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.forming import Forming
@@ -135,6 +136,8 @@ class Placing(Forming):
         landmark, surface = last if last[0] else ([], False) if begun else world.landmark
         if side == "centre" and not landmark:
             landmark = self._relating.edged
+        if side == "other" and not landmark:
+            landmark = self._across(children, implied)
         if landmark and side == "other" and not surface:
             # "On one side of the plate is a fork, on the other a knife."
             side = "right"
@@ -158,6 +161,18 @@ class Placing(Forming):
             # "A cup and a bowl are on the table. The cup is on the left."
             implied = [item for item in world.together if item not in children]
         world.sided.append(Sided(items=children, side=side, owner=[], implied=implied, begun=bool(begun)))
+
+    def _across(self, children: list[Item], beside: list[Item]) -> list[Item]:
+        """What `beside` stands next to, of which `children` are "on the other side"; that is on its left then."""
+        world = self._world
+        edge = next((each for each in world.laterals[::-1] if each.kind == "next_to" and each.child in beside), None)
+        if edge is None or edge.parent in children:
+            return []
+        world.laterals = [replace(each, kind="left_of") if each is edge else each for each in world.laterals]
+        below = world.support(edge.child)
+        if below is not None and below is world.support(edge.parent) and has_room(world, below, children[0]):
+            world.place(children, "on", [below], weak=True)
+        return [edge.parent]
 
     def _outermost(self, items: list[Item], kind: str | None, children: list[Item]) -> list[Item]:
         """The farthest on side `kind` of `items`, by what was said of which is beside which."""

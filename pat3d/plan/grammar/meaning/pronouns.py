@@ -17,6 +17,7 @@ from pat3d.plan.grammar.rewriting.rooms import ROOMS
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.links import INSIDE, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
+from pat3d.plan.grammar.words.number_words import ORDINALS
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE, SUPPORT_KINDS
 
 _CLOSE = 0.1
@@ -147,6 +148,7 @@ class Pronouns:
         if link is not None and link.kind in LATERAL_KINDS and not (child or plural):
             # "A laptop is on a desk; to its right is a mouse, and behind it a lamp": behind the laptop.
             candidates.append((-0.2, self._told_by_its_side(at)))
+            candidates.append((-1.0, self._owner_of(other, at)))
             candidates.append((-1.7, self._world.below_told(next((each for each in before if each), []), other)))
         steps, unread = self._world.steps, self._world.unread
         if child and self.asked and unread is not None:
@@ -217,14 +219,16 @@ class Pronouns:
         if below is not None and opened and link is not None and link.manner == "under":
             # "By a bench is a stool. On the stool lies a hat, under it a glove.": under the stool.
             candidates.append((0.1, [below]))
-        named = [key for key in sorted(self.known, reverse=True) if not (pointing and self._is_pronoun(key))]
+        silent = {key for key in self.known if pointing and self._is_pronoun(key) and not self._is_further(key)}
+        named = [key for key in sorted(self.known, reverse=True) if key not in silent]
         nearest = [self.known[key] for key in named if key < at and self.known[key]]
         nearest = [items for items in nearest if not set(items) & set(other)]
         if plural and len(nearest) > 1 and len(nearest[0]) == 1:
             candidates.append((0.15, list(dict.fromkeys([*nearest[1], *nearest[0]]))))
         for rank, items in enumerate(nearest[:4]):
             # "That" is what is named last.
-            candidates.append(((-0.5 if which else -0.3) + 0.3 * rank if near else 0.35 + 0.1 * rank, items))
+            nearer = (-0.5 if which else -0.3) + (0.6 if pointing else 0.3) * rank
+            candidates.append((nearer if near else 0.35 + 0.1 * rank, items))
         for rank, group in enumerate(reversed(self._earlier[-3:])):
             candidates.append((0.6 + 0.2 * rank, group.items))
         further = any(self._is_further(key) for key, items in self.known.items() if set(items) & set(other))
@@ -247,7 +251,13 @@ class Pronouns:
             if not plural and other and not told and items[0].group.noun == other[0].group.noun:
                 # "a wrench in the box, another on it": on the box; "another beside it": beside the first wrench.
                 unlike = items[0].group.modifiers.colours != other[0].group.modifiers.colours != ()
-                cost += -0.6 if (further or unlike) and link is not None and link.kind in LATERAL_KINDS else 0.6
+                aside = link is not None and link.kind in LATERAL_KINDS
+                # "A cube on the table, another on top of it, a third on that": each on the one before.
+                topped = link is not None and link.kind == "on" and ("top" in self._chunks[at - 1].words or pointing)
+                noun = items[0].group.noun
+                stacks = self._world.is_a(items[0], lexicon.STACKABLE) or self._world.likely.on(noun, noun) < _CARRIED
+                piled = further and topped and stacks and not child
+                cost += -0.6 if ((further or unlike) and aside) or piled else 0.6
                 # "A gift is on the chair, another under it": under the chair.
                 cost += 1.7 * (further and link is not None and link.manner == "under")
             if link is not None and other:
@@ -349,6 +359,16 @@ class Pronouns:
         heads = next((self.clauses[start] for start in sorted(self.clauses, reverse=True) if start < side), ())
         return [item for head in heads for item in self.ref(head)] or list(self._world.subject)
 
+    def _owner_of(self, items: Sequence[Item], at: int) -> list[Item]:
+        """What is named last before chunk `at` of what the lids `items` close, or what has "its saucer"."""
+        world, own = self._world, any(item.group.phrase.possessive for item in items)
+        lids = bool(items) and all(world.is_a(item, lexicon.ON_RIMS) for item in items)
+        told = [each for key in sorted(self.known, reverse=True) if key < at for each in reversed(self.known[key])]
+        told += [each for group in reversed(self._earlier) for each in reversed(group.items)]
+        carriers = {*items, *(() if lids else (edge.parent for edge in world.supports.values()))}
+        free = (each for each in told if each not in carriers and (lids or own))
+        return next(([each] for each in free if not lids or world.closes(items, each)), [])
+
     def _carried(self, items: Sequence[Item]) -> str | None:
         """The words for the one thing that `items` are said to have on or in them, named behind them; None without."""
         upon = [item for item in self._world.items() if self._world.support(item) in items]
@@ -366,7 +386,8 @@ class Pronouns:
         phrase = self._chunks[at].phrase
         if phrase is None or phrase.definite:
             return False
-        return phrase.head == "another" or phrase.other or tuple(phrase.words.lower().split()[:2]) == ("a", "second")
+        opening = phrase.words.lower().split()[:2]
+        return phrase.head == "another" or phrase.other or (opening[:1] == ["a"] and opening[-1] in ORDINALS)
 
     def _comes_later(self, items: Sequence[Item], at: int) -> bool:
         """Whether `items` are named behind chunk `at` first: "It stands before a radio, which is behind a crate"."""

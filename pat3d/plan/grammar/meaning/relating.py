@@ -8,7 +8,7 @@ from itertools import product
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
-from pat3d.plan.grammar.meaning.attached import bears, crowding, slip_under, with_its_carrier
+from pat3d.plan.grammar.meaning.attached import bears, crowding, lids_beside, slip_under, with_its_carrier
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
@@ -119,6 +119,7 @@ class Relating:
             if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
             self._settle(children, parents)
+            lids_beside(world, children, parents[0])
             if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
                 # A ring around several things is around none of them alone.
                 return
@@ -136,11 +137,12 @@ class Relating:
     ) -> list[list[Item]]:
         """What `children` stand beside, all of them for each: "behind two boxes" is behind the one and the other.
 
-        Next to several things one is next to each, and several are so in turn.
+        Next to several like things several are so in turn: "two mugs next to two plates".
         """
         places, own = self.world.bases(parents) or parents, self.world.bases(children)
         each = each or any(item.group.multiplied for item in (*own, *places))
-        if link.kind == "around" or len(places) < 2 or (len(own) > 1 and (each or link.kind == "next_to")):
+        alike = len({item.group.noun for item in places}) < len(places) or len(own) > _NEIGHBOURS
+        if link.kind == "around" or len(places) < 2 or (len(own) > 1 and (each or (alike and link.kind == "next_to"))):
             return [parents]
         if len(own) * len(places) > _PAIRS or (link.kind == "next_to" and len(places) > _NEIGHBOURS):
             where = RELATION_WORDS[link.kind or "next_to"]

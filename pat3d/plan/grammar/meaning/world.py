@@ -126,6 +126,10 @@ class World:
         """Whether it is furniture with a level top, not a dish."""
         return self.is_a(item, lexicon.LEVEL) and not self.is_a(item, lexicon.DISHES)
 
+    def closes(self, lids: Sequence[Item], vessel: Item) -> bool:
+        """Whether `lids` close `vessel`."""
+        return all(self.likely.closes(self.noun(lid), self.noun(vessel)) for lid in lids)
+
     def below_told(self, told: Sequence[Item], other: Sequence[Item]) -> list[Item]:
         """What is "it" again for `other` behind "a box sits on it": the wardrobe, and no table that may carry both."""
         below = self.support(told[0]) if told and other else None

@@ -100,6 +100,19 @@ class Judging:
             or (phrase.head == "each" and len(heads) > 1 and not self._named_before(heads[0]))
         )
 
+    def _ranked(self, heads: tuple[int, ...]) -> bool:
+        """Whether `heads` are likes told by their places: "on the left table and the right table" is on both."""
+        told = all(self._phrase(head).definite and self._adjectives(head) & TELLING for head in heads)
+        return told and len({*map(self._noun, heads)}) == 1
+
+    def _adjectives(self, head: int) -> set[str]:
+        return set(self._phrase(head).modifiers.adjectives)
+
+    def _on_one(self, heads: tuple[int, ...], parent: int) -> float:
+        """The cost of furniture on "the right one", with what stands on that: "a sofa with ... and a book on it"."""
+        furniture = any(self._likely.floor(self._noun(head)) for head in heads[:-1])
+        return 0.4 * (furniture and self._phrase(parent).kind in HEADLESS)
+
     def _named_before(self, at: int) -> bool:
         """Whether several objects are named before chunk `at`: "two boxes with a ball and a cup in each" of them."""
         named = [head for head in range(at) if self._chunks[head].phrase and self._phrase(head).kind == "object"]
@@ -271,7 +284,7 @@ class Judging:
     def _kind_named(self, start: int, end: int) -> int | None:
         """The last phrase from chunk `start` to `end` that names a kind of things, of which a list may follow."""
         phrases = ((at, self._chunks[at].phrase) for at in range(end - 1, start - 1, -1))
-        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle and not phrase.definite), None)
+        return next((at for at, phrase in phrases if phrase is not None and phrase.cycle), None)
 
     def _one_more(self, head: int) -> bool:
         """Whether "two green ones" names more objects of a kind and tells nothing of those before."""

@@ -15,6 +15,10 @@ _DANGLES = 0.4
 """Cost of what stands at the end of a clause, behind a landmark, and is not beside anything."""
 
 
+_FILLS_TOO = 0.6
+"""Cost of parting what fills a vessel from what may fill it too."""
+
+
 def _list_cost(joints: str) -> float:
     """How unusual it is to list with these joints: "," and "&" for "and", ";" for ", and"."""
     closers = len(joints) - joints.count(",")
@@ -128,11 +132,22 @@ class Listing(Goals):
         if mark in "&," and self._ends_what_is_had(first, rest):
             # "A board lies on a bench with a knife and a lemon on it (and a cup beside it)": both are on the board.
             cost += _HAD_TOGETHER
+        # "A board with a bowl of plums and figs on it": the figs are in the bowl as well.
+        cost += _FILLS_TOO * self._fills_too(first, rest)
         if rest.joints[-1] in "&;" and self._shares_determiner(first, rest):
             # "A drill lies next to its battery and charger", "next to the saw, drill and charger": next to them all.
             cost += NO_DETERMINER
         flags = (first.flags | (rest.flags - {"placed"})) - {"comma", "modified"}
         return Node("L", first.start, cost, (*first.heads, *rest.heads), facts, rest.joints, flags)
+
+    def _fills_too(self, first: Node, rest: Node) -> bool:
+        """Whether `rest` begins with what may fill the vessel that `first` ends in, named as what does: "of plums"."""
+        full = [fact for fact in first.facts if fact[0] == "have" and fact[3] == (rest.start - 1,)]
+        if not full or rest.joints[0] != "&" or self._link(full[0][1]).manner != "of":
+            return False
+        owner, (filling, more) = self._noun(full[0][2][0]), map(self._phrase, (rest.start - 1, rest.heads[0]))
+        bare = not any(one.determined or one.count or one.kind != "object" for one in (filling, more))
+        return bare and self._likely.hollow(owner) and self._may_hold(owner, [self._likely.fits(more)])
 
     def _goes_on(self, first: Node, second: Node) -> float:
         """The cost of `second`, a list, being told apart from `first`: of what that lists it may be more."""
@@ -144,6 +159,7 @@ class Listing(Goals):
         # "There is a ball next to the box and the cube"
         cost += _DANGLES * (second.joints == "&" and not {"finite", "placed"} & second.flags
                             and self._ends_beside(first.start, second.start))  # fmt: skip
+        cost += _FILLS_TOO * self._fills_too(first, second)
         return cost + 0.2 * (fronted and not {"placed", "finite"} & second.flags)
 
     def _two_landmarks(self, objects: Node) -> bool:

@@ -109,7 +109,12 @@ class Grammar(Listing):
         # "next to a wall and a bench": beside the bench; but not "in front of a window and a rug on the floor".
         backed = said.kind in LATERAL_KINDS and any(self._only_background((head,)) for head in objects.heads)
         placed = any(chunk.kind in ("rel", "place") for chunk in self._chunks[max(objects.heads) + 1 :][:1])
-        ring = ring or (backed and objects.joints == "&" and not placed) or self._ends_in_neighbours(at, objects)
+        ring = (
+            ring
+            or (objects.joints == "&" and self._ranked(objects.heads))
+            or (backed and objects.joints == "&" and not placed)
+            or self._ends_in_neighbours(at, objects)
+        )
         if not (said.inverse or ring) and len(objects.heads) > 1 and said.manner != "between" and said.says != "across":
             # One thing on several, or beside several.
             cost += 0.9 if said.kind in SUPPORT_KINDS else 0.35 if self._two_landmarks(objects) else 0.5
@@ -271,7 +276,7 @@ class Grammar(Listing):
             # "two cushions and a cat between them": the cat is.
             cost += 0.9
         if link.kind in SUPPORT_KINDS and link.manner == "place":
-            extra += self._holds_itself(named, modifier)
+            extra += self._holds_itself(named, modifier) + self._on_one(named.heads, modifier.heads[0])
             twice = sum(self._again(head, named.facts) for head in named.heads) / len(named.heads)
             # What is on a book that is on a table is on the book; nothing is on two small things.
             extra += twice * (1.0 if self._likely.level(self._noun(modifier.heads[0])) else 3.0)

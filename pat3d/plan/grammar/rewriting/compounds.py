@@ -27,6 +27,7 @@ _LABORATORY = frozenset({"microscope", "microscopes", "petri", "pipette", "beake
 _SETS = frozenset({"dozen", "couple", "pair", "trio", "hundred", "few"})
 _HOLDING = frozenset({"holder", "holders", "dispenser", "caddy"})
 """Nouns of what is named for what it holds."""
+_WITH = (["with"], ["holding"], ["for"], ["carrying"], ["containing"], ["holds"], ["of"])
 _ONE = frozenset({"a", "an", "one", "the", "this", "that", "another", "my", "your", "our"})
 _CAUSING = frozenset({"let", "make", "have", "see", "watch", "should", "must", "can", "will", "does", "lets", "makes"})
 """Verbs behind which that of one thing has no ending: "let a candle stand on a plate"."""
@@ -120,14 +121,19 @@ def _one_name(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _in_company(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "two pens in a holder" as "two pens in a pen holder", where the catalogue has that."""
+    """`tokens` with "two pens in a holder" and "a holder with pens" as a pen holder, where the catalogue has that."""
     made: list[Token] = []
     words = [token.text for token in tokens]
     for at, token in enumerate(tokens):
         alone = token.text in _HOLDING and at > 0 and nouns.match(words[at - 1 : at + 1]) is None
-        held = [one for word in words[:at] for one in (*singulars(word), word) if alone and nouns.match([one])]
+        stands = token.text == "stand" and at > 0 and words[at - 1] in _ONE
+        alone = alone or (stands and nouns.match(["stand"]) is None)
+        stop = next(n for n in range(at, len(words)) if words[n] == "." or (words[n] == "next" and n > at))
+        company = [*words[at + 2 : stop], *words[:at]] if words[at + 1 : at + 2] in _WITH else words[:at]
+        named_in = [word for word in company if alone and nouns.match([word])]
+        held = [one for word in named_in for one in (word, *singulars(word))]
         named = [one for one in held if nouns.match([one, token.text.removesuffix("s")])]
-        if alone and token.text == "holder" and not named and _UTENSILS & {*held, *words[:at]}:
+        if alone and token.text == "holder" and not named and _UTENSILS & {*held, *company}:
             named = ["utensil"]
         if alone and named and nouns.match([token.text]) is None:
             made.append(replace(token, text=named[-1]))

@@ -19,7 +19,8 @@ from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _PARTS = {"half": 2, "halves": 2, "third": 3, "thirds": 3, "quarter": 4, "quarters": 4, "fifth": 5, "fifths": 5}
 _EVERY = {"other": 2, "second": 2, "third": 3, "fourth": 4}
-_OF_SEVERAL = {"is": "are", "has": "have", "holds": "hold", "contains": "contain", "stands": "stand", "lies": "lie"}
+_OF_SEVERAL = {"is": "are", "has": "have", "holds": "hold", "contains": "contain", "stands": "stand", "lies": "lie",
+               "carries": "carry", "bears": "bear", "sits": "sit"}  # fmt: skip
 _ALL = frozenset({"the", "these", "those", "my", "all"})
 
 Share = tuple[Fraction, int, list[Token]]
@@ -88,7 +89,12 @@ def _every(tokens: Sequence[Token], at: int, nouns: Nouns) -> Share | None:
     """What "every second fig is" at token `at` is a share of: where that is named, and its plural."""
     words = [token.text for token in tokens[at : at + 4]]
     begins = not at or tokens[at - 1].mark or tokens[at - 1].text == "and"
-    found = nouns.match(words[2:3]) if begins and words[0] == "every" and words[1] in _EVERY else None
-    if found is None or found.plural or words[3] not in _OF_SEVERAL:
+    if not begins or words[0] != "every" or words[1] not in _EVERY or words[3] not in _OF_SEVERAL:
         return None
-    return Fraction(1, _EVERY[words[1]]), at + 2, [replace(tokens[at + 2], text=plural(words[2]))]
+    found = nouns.match(words[2:3])
+    several = plural(words[2]) if found is not None and not found.plural else ""
+    if words[2] == "one":
+        # "Six cups in a row, every second one is red"
+        before = (token.text for token in reversed(tokens[:at]) if singulars(token.text))
+        several = next((word for word in before if nouns.match([word])), "")
+    return (Fraction(1, _EVERY[words[1]]), at + 2, [replace(tokens[at + 2], text=several)]) if several else None

@@ -23,7 +23,7 @@ def with_own_nouns(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     while at < len(tokens):
         ranks = _ranks(tokens, at)
         end = ranks[-1] + 1 if ranks else at
-        size, name = _head(tokens, end, nouns) if ranks else (0, [])
+        size, name = _head(tokens, end, nouns, single=len(ranks) == 2) if ranks else (0, [])
         headless = ranks and not size and tokens[end].text in FINITE and tokens[max(at - 1, 0)].text not in _PLACING
         if not size and not headless:
             made.append(tokens[at])
@@ -58,14 +58,14 @@ def _ranks(tokens: Sequence[Token], at: int) -> list[int]:
     return found if joined and len(found) > 1 and found[-1] == at - 1 else []
 
 
-def _head(tokens: Sequence[Token], at: int, nouns: Nouns) -> tuple[int, list[str]]:
-    """How many words the plural name at token `at` has, and its words in the singular."""
+def _head(tokens: Sequence[Token], at: int, nouns: Nouns, *, single: bool) -> tuple[int, list[str]]:
+    """How many words the name at token `at` has, and its words in the singular: "the left and the right cup" too."""
     words = [token.text for token in tokens[at : at + 3]]
     if words[:1] == ["ones"]:
         return 1, ["one"]
     for size in (3, 2, 1):
         found = nouns.match(words[:size])
         one = singulars(words[size - 1]) if len(words) >= size else ()
-        if found is not None and found.plural and one:
-            return size, [*words[: size - 1], one[0]]
+        if found is not None and (one if found.plural else single):
+            return size, [*words[: size - 1], next(iter(one if found.plural else ()), words[size - 1])]
     return 0, []

@@ -15,6 +15,7 @@ from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import quoted
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.number_words import numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _LAYING = (("set", "up"), ("lay", "out"), ("set",), ("lay",), ("prepare",), ("dress",), ("arrange",))
@@ -26,7 +27,7 @@ def laid_tables(text: str, told: Sequence[list[Token]], nouns: Nouns) -> tuple[l
     made: list[list[Token]] = []
     away: list[str] = []
     for sentence in told:
-        laid = _laid(sentence, nouns)
+        laid = _laid(sentence, nouns) or _places(sentence)
         if laid is None:
             made.append(sentence)
             continue
@@ -64,6 +65,18 @@ def _laid(tokens: list[Token], nouns: Nouns) -> tuple[list[Token], list[Sequence
         return None
     on = replace(tokens[colon], text="on", mark=False)
     return [replace(tokens[0], text="put"), *things, on, *tokens[verb:end], tokens[-1]], spans
+
+
+def _places(tokens: list[Token]) -> tuple[list[Token], list[Sequence[Token]]] | None:
+    """`tokens` "lay two places at the table" as "two plates and two forks and two knives on the table"."""
+    words = [token.text for token in tokens]
+    end = 3 + (words[3:4] in (["setting"], ["settings"]))
+    if words[0] not in ("lay", "set") or not numeral(words[1]) or words[2] not in ("place", "places") or ":" in words:
+        return None
+    setting = [replace(tokens[1], text=word) for word in ("plates", "and", "forks", "and", "knives")]
+    laid = [each for thing in setting for each in ([thing] if thing.text == "and" else [tokens[1], thing])]
+    rest = [replace(one, text="on") if one.text == "at" else one for one in tokens[end:]]
+    return [*laid, *rest], [tokens[1:end]]
 
 
 def _named(item: Sequence[Token], nouns: Nouns) -> int:

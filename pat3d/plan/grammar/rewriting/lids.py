@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.outcomes import TAKING
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -66,5 +67,10 @@ def lid_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         before = tokens[: start if owned else lid - 1]
         taken = words[0] in TAKING and len(before) < _NEAR
         owner = [replace(tokens[lid], text="on"), *tokens[start:end]] if taken else []
-        return lid_of([*before, replace(the, text="the"), tokens[lid], *owner, *tokens[max(lid + 1, end) :]], nouns)
+        after = list(tokens[max(lid + 1, end) :])
+        it = next((n for n in range(1, len(after)) if after[n].mark or after[n].text == "it"), 0)
+        if it and after[it].text == "it" and link_at(after, it - 1):
+            # "The lid of the pot lies beside it"
+            after[it : it + 1] = tokens[start:end]
+        return lid_of([*before, replace(the, text="the"), tokens[lid], *owner, *after], nouns)
     return list(tokens)

@@ -27,7 +27,8 @@ _OF = tuple(tuple(said.split()) for said in (
 ))  # fmt: skip
 _ARTICLES = frozenset({"a", "an", "some", "one", "the"})
 _MAKING = frozenset({"making", "having", "cooking", "eating", "preparing", "serving", "ordering", "serve", "make"})
-_TALKING = frozenset({"i", "we", "i'm", "we're", "picture", "imagine", "envision", "visualize", "visualise", "it's"})
+_TALKING = frozenset({"i", "we", "i'm", "we're", "picture", "imagine", "envision", "visualize", "visualise", "it's",
+    "like", "as"})  # fmt: skip
 _JOINTS = frozenset({"and", "for", "consisting"})
 _READY = frozenset({"ready", "served", "prepared", "over", "late", "finished", "cooking"})
 

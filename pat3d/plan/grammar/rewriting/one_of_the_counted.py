@@ -8,7 +8,7 @@ from dataclasses import replace
 from pat3d.plan.english import plural
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.number_words import numeral
@@ -81,9 +81,12 @@ def _more_of_them(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         number, behind = numeral(token.text), words[min(at + 1, len(words) - 1)]
         # "One jar is on a shelf. Two are below it."
         start = max((n for n in begin if n < at), default=0)
-        if not number or token.text == "both" or words[start] not in ("a", "an", "one", "1"):
+        first = words[start] in ("a", "an", "one", "1") or (words[start] == "the" and not start)
+        if not number or token.text == "both" or not first:
             continue
-        verb = behind in FINITE and number > 1 and words[at - 1] in _JOINTS | {"."}
+        several = any(singulars(word) and nouns.match([word]) for word in words[:at])
+        verb = behind in FINITE and words[at - 1] in (_JOINTS | {"."} if number > 1 else {"."})
+        verb = verb and (number > 1 or not several)
         had = behind in ("with", "without") and (_led(words, at) or words[at - 1] == "between")
         # "A box holds four cans; three are red": of the cans.
         verb = verb and all((numeral(word) or 0) < number for word in words[start + 1 : at])

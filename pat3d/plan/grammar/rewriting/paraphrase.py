@@ -33,7 +33,7 @@ from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
 from pat3d.plan.grammar.rewriting.ranges import ranged
-from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, one_of_two, upon_it
+from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, on_top, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
 from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
@@ -84,7 +84,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = at_levels(alternating(with_own_nouns(ranged(tokens, nouns), nouns), nouns), nouns)
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
-    tokens = stood_where(covering(opened(stated(upon_it(tokens)), nouns), nouns), nouns)
+    tokens = stood_where(covering(opened(stated(on_top(upon_it(tokens), nouns)), nouns), nouns), nouns)
     tokens = _without_warning(tokens)
     tokens = counted(fronted(stateless(formed(emptied(tokens)), nouns)), nouns)
     refuse_negations(tokens)

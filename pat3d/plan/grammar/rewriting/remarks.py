@@ -153,6 +153,9 @@ class Remarks:
             # "its screen dark", "the bristles still damp"
             state = words[2 + (words[2:3] in (["still"], ["slightly"], ["all"], ["half"])) :]
             return end if state and _tells_state(state[0]) and self._empty(at + 2, end) else 0
+        if at and {*words} & lexicon.STYLES and self._empty(at, end):
+            # "A teapot on a table, 8k, unreal engine"
+            return end
         opens = first in _OPENING | lexicon.SUPERLATIVES.keys() or first.endswith(("ed", "ing", "ly"))
         told = any(is_colour_word(word) or word in ("one", "ones") or word in FINITE for word in words)
         if not opens or first in MOVING or told or self._names_a_thing(at, end):

@@ -31,6 +31,8 @@ _SHINING = {"shines": ("points", "at"), "shine": ("are", "pointing", "at"), "shi
 _UPON = frozenset({"on", "onto", "upon", "at", "over"})
 """Words before what a lamp lights."""
 _NEAR = frozenset({"behind", "beside", "under", "on", "near", "between", "over", "above", "by", "beneath"})
+_BELOW = frozenset({"under", "underneath", "beneath", "below"})
+_JOINING = frozenset({"and", ",", "with"})
 _ONE_OF = frozenset({"one", "other", "another", "first", "second", "third", "fourth", "last", "left", "right"})
 """Words for one of several that are not named again."""
 
@@ -105,6 +107,10 @@ def bare(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = _of_material(_posing(_own(tokens), nouns), nouns)
     kept: list[Token] = []
     for at, token in enumerate(tokens):
+        if token.text == "others" and tokens[min(at + 1, len(tokens) - 1)].text in ("stay", "remain"):
+            token = replace(token, text="rest")
+        if token.text == "between" and "jaws" in [other.text for other in tokens[at + 2 : at + 4]]:
+            token = replace(token, text="in")
         before, follower = (kept[-1].text if kept else ""), tokens[min(at + 1, len(tokens) - 1)]
         kept_rest = token.text in ("others", "rest", "other") and before == "the" and is_colour_word(follower.text)
         if kept_rest and tokens[min(at + 2, len(tokens) - 1)].mark:
@@ -198,6 +204,32 @@ def upon_it(tokens: Sequence[Token]) -> list[Token]:
         if one or listed:
             said = [replace(tokens[at], text="in" if size == 1 else "on"), replace(tokens[at], text="it")]
             tokens = [*tokens[:at], *said, *tokens[at + size :]]
+    return list(tokens)
+
+
+def on_top(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a crate, on top a lamp" as "... on top of it a lamp".
+
+    Of "a crate under the table and a lamp on top" the lamp is on top of the table.
+    """
+    words = [token.text for token in tokens]
+    new = {"a", "an", *lexicon.NUMBERS}
+    under = next((n for n in range(len(words) - 3) if words[n] in _BELOW and words[n + 1] in lexicon.DETERMINERS), -1)
+    joints = [n for n in range(under + 2, len(words)) if tokens[n].mark or words[n] in FINITE | _JOINING]
+    for at in range(max(under, 2) + 1, len(words) - 2):
+        after = at + 2 + (words[at + 2] in lexicon.STANDING)
+        joint = max((n for n in range(at) if words[n] in _JOINING), default=-1)
+        fronts = joint == at - 1 and words[after] in new
+        listed = under >= 0 and words[joint] != "with" and words[joint + 1] in new and tokens[at + 2].mark
+        last = joint > under and not any(link_at(tokens, n) for n in range(joint + 1, at))
+        if words[at : at + 2] == ["on", "top"] and (fronts or (listed and last)):
+            the, *name = tokens[under + 1 : joints[0]] if under >= 0 else tokens[at : at + 1]
+            found = nouns.match([name[-1].text]) if name else None
+            level = found is not None and nouns.of_class(found.noun, lexicon.LEVEL)
+            if not (fronts or level):
+                continue
+            owner = [replace(the, text="the"), *name] if level else [replace(the, text="it")]
+            return [*tokens[: at + 2], replace(tokens[at + 1], text="of"), *owner, *tokens[at + 2 :]]
     return list(tokens)
 
 

@@ -31,6 +31,12 @@ def similes(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     """Where a thing is compared with another in one sentence, with the commas that set it off at both ends."""
     words = [token.text for token in tokens]
     made: list[Span] = []
+    for at in range(1, len(words) - 2):
+        before = nouns.match(words[at - 1 : at])
+        bears = before is None or any(nouns.of_class(before.noun, each) for each in (lexicon.LEVEL, lexicon.HOLLOW))
+        if words[at] == "with" and words[at + 2] == "ingredients" and not bears:
+            # "A soap with natural ingredients"
+            return [(at, at + 3)]
     at = 1
     while at < len(words):
         behind = _opening(words, at)

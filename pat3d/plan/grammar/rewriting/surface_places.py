@@ -29,7 +29,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
     the floor stands in the corner of a room.
     """
-    tokens = _whole(_other_places(tokens), nouns)
+    tokens = _whole(_other_places(_parts_again(tokens, nouns)), nouns)
     words = [token.text for token in tokens]
     told = _told(words, nouns)
     level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
@@ -55,6 +55,25 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if owner:
             made += [replace(token, text=word) for word in ("of", "the", *owner.split())]
     return made
+
+
+def _parts_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "on the left burner and a pot on the right one" as "... on the right burner".
+
+    "A pot on the one behind it" is "behind it".
+    """
+    words, part = [token.text for token in tokens], ""
+    named = {found.noun for word in words if (found := nouns.match([word])) is not None}
+    for at, word in enumerate(words):
+        lead = next((n for n in range(at - 1, max(at - 4, 0), -1) if words[n] == "the" and words[n - 1] == "on"), 0)
+        if lead and {*lexicon.PARTS_OF.get(word, ())} & named:
+            part = word
+        elif lead and part and word == "one":
+            which = [token for token in tokens[lead:at] if token.text != "other"]
+            beside = link_at(tokens, at + 1) and "it" in words[at + 2 : at + 4]
+            again = [] if beside else [tokens[lead - 1], *which, replace(tokens[at], text=part)]
+            return _parts_again([*tokens[: lead - 1], *again, *tokens[at + 1 :]], nouns)
+    return list(tokens)
 
 
 def _whole(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

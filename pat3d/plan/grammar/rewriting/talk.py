@@ -10,6 +10,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.modifiers import is_modifier, looks_like_adjective
 from pat3d.plan.grammar.words.unmade import is_quality, makes_nothing
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -62,11 +63,15 @@ def _is_denial(sentence: Sequence[Token]) -> bool:
 def _heading(sentence: Sequence[Token]) -> int:
     """The colon behind the meal or the drink that `sentence` begins with, for whoever it is; 0 without.
 
-    "Tea for two: a cup each" says how many there are.
+    "Tea for two: a cup each" says how many there are; "like at a usual breakfast:" is one too.
     """
     words = [token.text for token in sentence]
     colon = words.index(":") if ":" in words else 0
-    head = int(words[0] in ("a", "an", "the", "our", "my"))
+    like = words[0] in ("like", "as")
+    head = like + (like and words[1] in ("at", "in", "for"))
+    head += words[head] in ("a", "an", "the", "our", "my")
+    while head < colon - 1 and (is_modifier(words[head]) or looks_like_adjective(words[head])):
+        head += 1
     if colon <= head:
         return 0
     served = words[head] in lexicon.MEALS - _HEAPS or (words[head] in lexicon.SUBSTANCES and not head)

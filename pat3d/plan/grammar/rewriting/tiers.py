@@ -53,9 +53,11 @@ def levels_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             after = at + size
             said = ("the", height, "shelf", "of", "the", *owner)
             made += [replace(tokens[at + min(n, size - 1)], text=word) for n, word in enumerate(said)]
-            if verb and words[at - 1] in _OPENING and words[after] in lexicon.COUNTING:
-                # "The top shelf holds a globe, the bottom one a vase."
+            has = words[at - 1] in _OPENING and words[after] == "with"
+            if (verb and words[at - 1] in _OPENING and words[after] in lexicon.COUNTING) or has:
+                # "The top shelf holds a globe, the bottom one a vase.", "the top one with a globe"
                 made.append(replace(tokens[after - 1], text="holds"))
+                after += has
             told = True
             at = after + 2 * (words[after] == "of" and words[after + 1] in ("it", "them"))
             continue
@@ -162,7 +164,7 @@ def _level(words: Sequence[str], at: int, *, told: bool) -> tuple[int, str]:
     height, head, after = words[at + 1 : at + 4]
     if height in _HEIGHTS and (head in _LEVELS or (told and head == "row")):
         return (0, "") if after == "of" and words[at + 4 : at + 5] not in (["it"], ["them"]) else (3, height)
-    subject = words[at - 1] in _OPENING and (_finite(after) or after in lexicon.COUNTING)
+    subject = words[at - 1] in _OPENING and (_finite(after) or after == "with" or after in lexicon.COUNTING)
     if told and height in _HEIGHTS and head == "one" and (subject or words[at - 1] == "on"):
         return 3, height
     alone = words[at - 1] in _OPENING and (_finite(head) or head in lexicon.COUNTING or head == "holding")

@@ -42,7 +42,7 @@ class Boundaries:
         start = at
         while True:
             token = self._tokens[at]
-            if token.mark or token.text in ("and", "or"):
+            if token.mark or token.text in ("and", "or", "but"):
                 if self._opens_joined_name(run, at):
                     run.append(token)
                     at += 1
@@ -205,7 +205,9 @@ class Boundaries:
             if known or self._tokens[at].text != "," or not (is_modifier(after) or looks_like_adjective(after)):
                 return None
         colours = is_colour_word(run[-1].text)
-        if not colours and (self._nouns.match([run[-1].text]) or self._nouns.resembles_noun(run[-1].text)):
+        described = all(is_modifier(token.text) for token in run)
+        alike = not described and self._nouns.resembles_noun(run[-1].text)
+        if not colours and (self._nouns.match([run[-1].text]) or alike):
             return None
         first = self._skip_joint(at)
         look = first
@@ -277,7 +279,7 @@ class Boundaries:
     def _skip_joint(self, at: int) -> int:
         if self._tokens[at].text == ",":
             at += 1
-        if self._tokens[at].text in ("and", "or"):
+        if self._tokens[at].text in ("and", "or", "but", "yet"):
             at += 1
         return at
 

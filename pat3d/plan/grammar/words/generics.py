@@ -54,6 +54,8 @@ GENERICS: dict[str, tuple[str, ...]] = {
     **dict.fromkeys(("crockery", "dishware", "tableware"), ("plate", "bowl", "cup")),
     "cookware": ("pot", "pan"), "glassware": ("glass", "wine glass"),
     **dict.fromkeys(("clothes", "clothing", "garment", "laundry"), ("t-shirt", "jeans", "sock")),
+    "ingredient": ("egg", "tomato", "cheese"), "supply": ("box", "bottle", "tape"),
+    "material": ("wood block", "rope", "cardboard sheet"), "craft supply": ("paintbrush", "crayon", "glue stick"),
     "berry": ("strawberry", "blueberry", "raspberry"),
     **dict.fromkeys(("citrus", "citrus fruit"), ("orange", "lemon", "lime")),
     **dict.fromkeys(("electronic device", "electronic", "gadget", "device"), ("phone", "tablet", "camera")),

@@ -99,7 +99,7 @@ MODALS = frozenset({"should", "must", "shall", "will", "can", "could", "may", "m
 ADVERBS = frozenset({"very", "neatly", "quite", "really", "slightly", "carefully", "directly", "right", "just",
     "immediately", "entirely", "vertically", "horizontally", "upright", "loosely", "closely", "together", "nicely",
     "partially", "too", "so", "still", "precariously", "gently", "randomly", "evenly", "happily", "also", "comfortably",
-    "currently", "up", "down", "neat", "already"})  # fmt: skip
+    "currently", "up", "down", "neat", "already", "everywhere"})  # fmt: skip
 
 BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backdrop", "composition", "perspective",
     "view", "floor", "ground", "surface", "wall", "walls", "atmosphere", "style", "environment", "bedroom", "kitchen",
@@ -121,7 +121,7 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "sunrise", "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed",
     "pair view", "suite", "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation",
     "direction", "user", "manner", "way", "fashion", "use", "close up", "grain patterns", "windows",
-    "nook", "alcove", "kitchenette", "conservatory", "cubicle"})  # fmt: skip
+    "nook", "alcove", "kitchenette", "bistro", "diner", "boutique", "atelier", "conservatory", "cubicle"})  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents",
     "elements"})  # fmt: skip
@@ -156,18 +156,24 @@ PORTIONS = frozenset({"bar", "piece", "slice", "loaf", "chunk", "sheet", "tube",
 SHAPES = frozenset({"figure", "statue", "figurine", "sculpture", "toy", "model", "block", "ball"})
 """X in "X of Y" where X is the form that Y has."""
 PICTURES = frozenset({"photo", "photograph", "picture", "image", "view", "shot", "rendering", "render", "illustration",
-    "display", "scene", "arrangement", "painting", "drawing", "depiction"})  # fmt: skip
+    "display", "scene", "arrangement", "painting", "drawing", "depiction", "sketch", "watercolor",
+    "watercolour", "artwork", "cartoon", "diorama", "snapshot",})  # fmt: skip
 """X in "X of Y" where only Y is there to be placed."""
+STYLES = frozenset({"4k", "8k", "16k", "hd", "uhd", "hdr", "octane", "artstation", "unreal", "engine", "cgi", "bokeh",
+    "masterpiece", "photorealism", "hyperrealism", "photoreal", "3d", "render", "rendering", "style", "quality",
+    "resolution", "lighting", "pbr", "pixar", "ghibli"})  # fmt: skip
+"""Words for how a picture is made, set off behind its scene."""
 SUBSTANCES = frozenset({"water", "tea", "coffee", "milk", "juice", "wine", "beer", "soup", "rice", "sugar", "salt",
     "honey", "jam", "oil", "sauce", "cereal", "flour", "sand", "soil", "dirt", "ink", "paint", "cream", "lemonade",
-    "soda", "chocolate milk", "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
+    "soda", "chocolate milk", "peelings", "shavings", "sawdust", "crumbs",
+    "steam", "liquid", "ice", "gel", "cocoa", "syrup", "butter", "tissues", "paper",
     "beverage", "greens", "lentil", "broth", "whisky", "whiskey", "rum", "vodka", "gin", "tequila", "brandy", "bourbon",
     "champagne", "cider", "liqueur", "sherry", "sake", "espresso", "latte", "cappuccino", "matcha", "batter", "dough",
     "gravy", "stew", "porridge", "oatmeal", "oats", "curry", "ramen", "quinoa", "couscous", "bean", "chickpea",
     "sprinkles", "jelly", "marmalade", "chutney", "salsa", "guacamole", "crumb", "breadcrumb", "leftovers", "scraps",
     "basil", "herb", "parsley", "rosemary", "thyme", "cilantro", "oregano", "dill", "sage", "mint", "foam", "froth",
     "lather", "suds", "bubbles", "puddle", "snow", "mud", "gravel", "cement", "plaster", "compost", "mulch", "hay",
-    "sawdust", "lint", "ash", "ashes", "smoke", "gasoline", "petrol", "fuel", "varnish", "confetti", "glitter",
+    "lint", "ash", "ashes", "smoke", "gasoline", "petrol", "fuel", "varnish", "confetti", "glitter",
     "potpourri", "junk", "debris", "trinkets", "foil", "fabric", "wrapping", "tinsel", "seeds", "kibble",
     "birdseed"})  # fmt: skip
 """Contents too fine or too wet to be rigid bodies, what covers things, and what is of no one kind."""
@@ -304,6 +310,11 @@ STORAGE = ("bookshelf", "bookcase", "shelf", "shelving unit", "cabinet", "dresse
     *HOUSING)  # fmt: skip
 STORAGE_PARTS = frozenset({"shelf", "shelves", "drawer", "drawers"})
 """Parts of storage furniture that are also nouns of their own: "the shelf" of a bookcase is no second object."""
+LAID = frozenset({"runner", "table runner", "tablecloth", "table cloth", "placemat", "place mat", "centerpiece",
+    "centrepiece", "doily"})  # fmt: skip
+"""What tables are laid with, by what it is called."""
+ON_WALLS = ("wall clock", "hook rail", "towel rail", "key rack")
+"""What hangs on a wall though a list of it ends in "on the table"."""
 BY_A_SEAT = ("lamp", "plant", "potted plant", "vase", "basket", "fire extinguisher", "ball", "swing", "clock")
 """What stands beside a sofa rather than on it when the prompt only says "next to"."""
 
@@ -354,7 +365,7 @@ PILES = ("book", "plate", "saucer", "box", "brick", "block", "towel", "magazine"
     "vinyl record", "jigsaw puzzle", "apron")  # fmt: skip
 """What a pile of is a stack."""
 MEALS = frozenset({"breakfast", "lunch", "dinner", "supper", "meal", "stuff", "clutter", "mess",
-    "brunch", "picnic", "dessert", "feast", "salad", "groceries", "ingredients", "supplies"})  # fmt: skip
+    "brunch", "picnic", "dessert", "feast", "salad", "groceries"})  # fmt: skip
 """Words that name no single thing."""
 FOREIGN = frozenset({"una", "el", "los", "las", "sobre", "con", "junto", "del", "unos", "mesa", "taza", "der", "das",
     "auf", "dem", "ein", "eine", "einen", "einem", "und", "mit", "neben", "tisch", "le", "les", "des", "une", "sur",

@@ -77,6 +77,7 @@ def normalise(prompt: str) -> str:
     text = re.sub(r"\bspaced (?:about )?(?=\d)", "", text)
     # "Forks on display" are shown, and stand on no screen.
     text = re.sub(r" (?:(?:are|is) )?on (?:display|show)\b", "", text)
+    text = re.sub(r"\b(?:outer two|two outer) (?!ones)[a-z]+s(?= (?:are|have|hold|stand)\b)", "outer two", text)
     text = re.sub(r"\b3/4(?= view| angle)", "three-quarter", text)
     text = re.sub(r"\b([^\W\d_]+) (\d{1,2})[x\u00d7](?=[,.;]| and\b|$)", r"\2 \1", text)
     text = re.sub(_LETTERS, _in_between, text)
@@ -113,7 +114,10 @@ def tokenise(text: str) -> list[Token]:
         start, end = found.span()
         if found.lastgroup in ("word", "number"):
             words += 1
-            word = MISSPELLED.get(found.group().lower(), found.group().lower())
+            # "Café" is read as "cafe".
+            plain = unicodedata.normalize("NFKD", found.group().lower()).encode("ascii", "ignore").decode()
+            word = plain or found.group().lower()
+            word = MISSPELLED.get(word, word)
             if word.endswith("'s") and len(word) > 2:
                 tokens.append(Token(text=word[:-2], start=start, end=end - 2, number=words))
                 tokens.append(Token(text="'s", start=end - 2, end=end, number=words))

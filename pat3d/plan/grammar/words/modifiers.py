@@ -52,7 +52,8 @@ _ADJECTIVES = frozenset({
     "sour", "bitter", "sticky", "sleepy", "lively", "lovely", "cheerful", "polished", "weathered", "slim", "compact",
     "rectangular", "circular", "triangular", "angular", "irregular", "unique", "opaque", "precise", "exact", "matte",
     "matt", "glossy", "damp", "moist", "cosy", "comfy", "snug", "dim", "uneven", "asleep", "awake", "off-centre",
-    "off-center", "slight", "subtle",
+    "off-center", "slight", "subtle", "nice", "friendly", "homely", "airy", "pretty", "fancy", "classy", "trendy",
+    "sunny", "humble", "chic", "ugly", "busy", "contemporary", "peaceful", "welcoming", "inviting", "tranquil",
 })  # fmt: skip
 TOLD_BY_PLACE = frozenset({*ORDINALS, "last", "leftmost", "rightmost", "middle"})
 """Members of a group named by their place alone: "a ball in the first"."""

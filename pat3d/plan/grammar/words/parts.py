@@ -9,7 +9,7 @@ _NAMES = """
     prong seam strap zipper hinge crust rind stalk fin mane horn whisker crease wick lens dial keyhole slot
     stitching engraving bite residue component earpiece text lettering lace sole logo sticker crack scratch stain
     decal emblem inscription gripper effector yolk condensation droplet underside outline hue highlight reflection
-    manipulator hardware tine exterior peel level tier headboard footboard neck
+    manipulator hardware tine exterior peel level tier headboard footboard neck jaw
 """
 PARTS = frozenset(_NAMES.split())
 """Their names, wherever they stand."""
