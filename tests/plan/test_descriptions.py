@@ -2,6 +2,7 @@
 
 import pytest
 
+from pat3d.assets.catalogue import make
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.telling import tell
@@ -234,3 +235,18 @@ def test_shelves_told_one_by_one_are_of_the_bookcase(prompt):
     assert not plan.notes
     assert "The bookcase has three shelves." in tell(plan)
     assert {each.kind for each in plan.arrangements} >= {"on_top_tier", "on_middle_tier", "on_bottom_tier"}
+
+
+@pytest.mark.parametrize(
+    ("sentence", "young"),
+    [
+        ("A kitten on a rug and a cat beside the rug.", {"kitten": True, "cat": False}),
+        ("Two puppies in a basket.", {"puppy 1": True, "puppy 2": True, "basket": False}),
+        ("A dog next to a puppy.", {"dog": False, "puppy": True}),
+    ],
+)
+def test_young_animals_are_made_smaller(sentence, young):
+    objects = PLANNER.plan(sentence).objects
+    assert {obj.name: "young" in obj.adjectives for obj in objects if obj.name in young} == young
+    for noun in {obj.noun for obj in objects if young.get(obj.name)}:
+        assert make(noun, adjectives=("young",)).size.max() < 0.85 * make(noun).size.max()

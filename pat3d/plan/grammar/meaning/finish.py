@@ -269,11 +269,12 @@ def _objects(world: World, nouns: Nouns) -> dict[Item, PlannedObject]:
             material = "" if material in said.split() or material == size else material
             name = " ".join(filter(None, (size, " and ".join(shown), material, said)))
             soft = group.said.split()[0] in ("plush", "stuffed", "soft", "plushie")
+            young = ("young",) if group.said.split()[-1] in lexicon.YOUNG else ()
             planned = PlannedObject(
                 name=name, noun=noun, phrase=group.words, colours=colours,
                 material=words.material or ("plush" if group.cycle and soft else None),
                 scale=scale, extent=extent or (Extent(metres=usual * scale) if usual else None),
-                adjectives=tuple(dict.fromkeys((*words.adjectives, *item.told.adjectives))), proxy=group.proxy,
+                adjectives=tuple(dict.fromkeys((*words.adjectives, *item.told.adjectives, *young))), proxy=group.proxy,
             )  # fmt: skip
             made.append((item, name, planned))
     total = Counter(name for _, name, _ in made)

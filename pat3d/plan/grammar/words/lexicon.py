@@ -349,6 +349,8 @@ GREETINGS = frozenset({"hey", "hi", "hello", "ok", "okay", "alright", "dear", "s
 VIEWERS = frozenset({"you", "me", "us", "viewer", "observer", "onlooker", "robot", "camera"})
 DIRECTIONS = frozenset({"forward", "forwards", "backward", "backwards", "closer", "further", "nearer", "farther",
     "clockwise", "counterclockwise", "sideways"})  # fmt: skip
+YOUNG = frozenset({"kitten", "kitty", "puppy", "pup", "piglet", "lamb", "duckling"})
+"""Words for young animals, which are made smaller."""
 HONOURED = frozenset({"open", "opened", "closed", "shut", "square", "cubic", "flat", "tall", "long", "rectangular",
     "striped", "high", "deep", "short", "shallow", "low", "wide", "narrow", "baby", "young", "newborn", "lit",
     "burning", "flickering", "thin", "slim", "thick", "heavy", "round", "landscape", "kitten"})  # fmt: skip
