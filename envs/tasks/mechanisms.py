@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -40,8 +39,6 @@ class Mechanism(ABC):
     """The middle of the front of its handle's bar [m], in its own frame, shape (3,)."""
     thick: float
     """Of that bar [m]."""
-    verbs: Mapping[str, str]
-    """What opening and closing it are told as, by the kind of task."""
     wanted: float
     """The share to which the scripted policy opens it."""
     opened: float
@@ -160,7 +157,6 @@ def _rail(scene: Scene, name: str, cabinet: str) -> Rail:
         lever=1.0,
         bar=np.array([0.0, low[1], scale * GRIP * BOX[2]]),
         thick=scale * BAR,
-        verbs={"open": "open", "close": "close"},
         wanted=0.85,
         opened=0.6,
         most=1.5,
@@ -180,7 +176,6 @@ def _turning(door: Asset, case: Asset, name: str) -> Turning:
         lever=scale * way.grip,
         bar=np.array([hinge.pivot[0] + scale * way.grip, low[1], low[2] + scale * way.bar]),
         thick=scale * BAR,
-        verbs={"open": "open door", "close": "close door"},
         # Further than it counts, and no further than a wrist turns.
         wanted=0.72,
         opened=0.6,

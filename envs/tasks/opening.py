@@ -49,8 +49,7 @@ class _Moving(Task):
     target: str
 
     def wordings(self, scene: Scene) -> tuple[str, ...]:
-        movable(scene, self.target)
-        return worded(mechanism_of(scene, self.target).verbs[self.kind], it=the(scene, self.target))
+        return worded(self.kind, it=the(scene, self.target))
 
     def check(self, scene: Scene) -> None:
         movable(scene, self.target)

@@ -91,29 +91,15 @@ _PUSH = (
 _OPEN = (
     "open {it}",
     "pull {it} open",
-    "slide {it} out",
-    "pull {it} out by its handle and leave it open",
+    "get {it} open",
+    "open {it} by its handle and leave it open",
 )
 
 _CLOSE = (
     "close {it}",
     "push {it} shut",
     "shut {it}",
-    "slide {it} back in until it is closed",
-)
-
-_OPEN_DOOR = (
-    "open {it}",
-    "pull {it} open",
-    "swing {it} open",
-    "open {it} by its handle and leave it open",
-)
-
-_CLOSE_DOOR = (
-    "close {it}",
-    "push {it} shut",
-    "shut {it}",
-    "swing {it} to until it is closed",
+    "push {it} back until it is closed",
 )
 
 _CARRY = (
@@ -143,8 +129,6 @@ WORDINGS = {
     "push": _PUSH,
     "open": _OPEN,
     "close": _CLOSE,
-    "open door": _OPEN_DOOR,
-    "close door": _CLOSE_DOOR,
     "carry": _CARRY,
     "handover": _HANDOVER,
 }
