@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from pat3d.assets import catalogue
+from pat3d.envs.suites.fixtures import FIXTURES, fixture
 from pat3d.envs.suites.pools import (
     COLOURS,
     CONTAINERS,
@@ -41,8 +42,15 @@ class ExhaustedError(Exception):
 class Composer:
     """Collects the objects of one composition."""
 
-    def __init__(self, rng: np.random.Generator, *, moved: tuple[str, ...], others: tuple[str, ...]) -> None:
-        self.rng, self._nouns = rng, {True: moved, False: others}
+    def __init__(
+        self,
+        rng: np.random.Generator,
+        *,
+        moved: tuple[str, ...],
+        others: tuple[str, ...],
+        fixtures: tuple[str, ...] = FIXTURES,
+    ) -> None:
+        self.rng, self._nouns, self._fixtures = rng, {True: moved, False: others}, fixtures
         self.objects: list[PlannedObject] = []
         self.relations: list[Relation] = []
         self.moved: list[str] = []
@@ -54,6 +62,8 @@ class Composer:
         self.coloured_only = False
         self.least_silhouette = 0.0
         """Width times height that what is moved has at least [m^2], where anything that fits has as much."""
+        self._asked: dict[str, str] = {}
+        """Sentences that ask for something, by the names of what it is done to."""
         self._scales: dict[str, float] = {}
         """Of sizes that the moved things' names say, by the word; empty where they say none."""
 
@@ -115,6 +125,10 @@ class Composer:
     def lookalikes(self, count: int) -> None:
         """Add loose things that are like those that are moved: of another size or colour, or of the same kind."""
         moved = [obj for obj in self.objects if obj.name in self.moved]
+        if self._asked:
+            # A second fixture has no room on a table.
+            self.fill(len(self.objects) + count)
+            return
         for number in range(count):
             like = moved[number % len(moved)]
             first = number < len(moved)
@@ -150,6 +164,16 @@ class Composer:
         name = self._add(self._pick(HOMES), (colour,), None, GROUND, "on")
         self.places.append(name)
         return name
+
+    def fixture(self, kind: str) -> str:
+        """Add a drawer or a door, and its case, to "open" or to "close"; returns its name."""
+        made = fixture(kind, self._pick(self._fixtures), self._pick(COLOURS), self._pick)
+        self.objects += [made.case, made.moved]
+        self.relations.append(made.held)
+        self.moved.append(made.moved.name)
+        self.places.append(made.case.name)
+        self._asked[made.case.name] = made.sentence
+        return made.moved.name
 
     def into(self, where: tuple[str, Container], *, moved: bool = False) -> str:
         """Add something in or on a container."""
@@ -211,10 +235,12 @@ class Composer:
     def _sentence(self) -> str:
         roots = [obj.name for obj in self.objects if all(rel.child != obj.name for rel in self.relations)]
         shuffled = [roots[place] for place in self.rng.permutation(len(roots))]
-        carriers = {rel.parent for rel in self.relations}
+        carriers = {rel.parent for rel in self.relations} - self._asked.keys()
+        shuffled = [name for name in shuffled if name not in self._asked]
         loose = [_a(name) for name in shuffled if name not in carriers]
         # A sentence for each group: in a list, "on it" may be read as said of everything before.
         sentences = [self._words(name) for name in shuffled if name in carriers] + ([_listed(loose)] if loose else [])
+        sentences = [*self._asked.values(), *sentences]
         return " ".join(f"{text[0].upper()}{text[1:]}." for text in sentences)
 
     def _words(self, root: str) -> str:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pat3d.envs.suites.composer import Composer, ExhaustedError
+from pat3d.envs.suites.fixtures import fixtures
 from pat3d.envs.suites.pools import partition
 from pat3d.envs.suites.request import MAX_OBJECTS, Request
 from pat3d.envs.suites.structures import CORES, NEXT, SIDES, TO_A_SIDE, Core
@@ -59,7 +60,8 @@ def draft(request: Request, place: int, candidate: int) -> Draft:
     for draw in range(_DRAWS):
         rng = np.random.default_rng([seed, draw])
         core, side = structures[int(rng.integers(len(structures)))]
-        composer = Composer(rng, moved=nouns[part if held_out == "object" else "train"], others=nouns["train"])
+        shown = part if held_out == "object" else "train"
+        composer = Composer(rng, moved=nouns[shown], others=nouns["train"], fixtures=fixtures(request.seed)[shown])
         try:
             composer.least_silhouette = SILHOUETTE * request.visible
             if request.alike:

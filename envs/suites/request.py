@@ -21,7 +21,20 @@ from pat3d.generation.request import derived_seed
 from pat3d.scene.model import check_least_tilt
 from pat3d.scene.physics import LEAST_TILT
 
-TASKS = ("pick", "place", "stack", "sort", "unload", "retrieve", "chain", "rearrange", "push", "beside")
+TASKS = (
+    "pick",
+    "place",
+    "stack",
+    "sort",
+    "unload",
+    "retrieve",
+    "chain",
+    "rearrange",
+    "push",
+    "beside",
+    "open",
+    "close",
+)
 TWO_ARMED = ("carry", "handover")
 """What takes two arms."""
 

@@ -273,6 +273,10 @@ def _hand_over(c: Composer) -> str:
     return f"handover:{c.item(moved=True, groups=(LONG,))}"
 
 
+def _opening(kind: str) -> Callable[[Composer], str]:
+    return lambda c: f"{kind}:{c.fixture(kind)}"
+
+
 def _core(name: str, size: int, build: Callable[[Composer], str], steps: int = 1) -> Core:
     return Core(name=name, size=size, build=build, steps=steps)
 
@@ -347,6 +351,8 @@ CORES: dict[str, tuple[Core, ...]] = {
     ),
     "carry": (_core("empty", 1, _carry_empty), _core("with something in or on it", 2, _carry_loaded)),
     "handover": (_core("loose", 1, _hand_over),),
+    "open": (_core("a drawer or a door", 2, _opening("open")),),
+    "close": (_core("a drawer or a door", 2, _opening("close")),),
     "retrieve": (_core("under one", 2, _retrieve(1)), _core("under two", 3, _retrieve(2))),
 }
 

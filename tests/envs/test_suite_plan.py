@@ -10,6 +10,7 @@ import pytest
 from pat3d.assets import catalogue
 from pat3d.envs.suites.composer import natural
 from pat3d.envs.suites.composition import SILHOUETTE, draft, structure_splits
+from pat3d.envs.suites.fixtures import DRAWERS, FIXTURES, fixtures
 from pat3d.envs.suites.pools import CONTAINERS, GROUPS, ITEMS, partition
 from pat3d.envs.suites.request import SPLITS, TASKS, TWO_ARMED, Request, check_split, in_split
 from pat3d.envs.suites.structures import CORES, SIDES, SORTED
@@ -17,8 +18,11 @@ from pat3d.envs.suites.worker_pool import worker_count
 from pat3d.envs.tasks.registry import TASKS as JUDGED
 from pat3d.envs.tasks.registry import parse_task
 from pat3d.errors import SuiteError
+from pat3d.plan.doors import HINGED
+from pat3d.plan.drawers import DRAWER_CABINET
 from pat3d.plan.grammar.planner import GrammarPlanner
 
+FIXTURE_OF = {HINGED[of]: of for of in FIXTURES if of in HINGED} | {DRAWER_CABINET: DRAWERS}
 REQUEST = Request(tasks=TASKS, scenes=300)
 
 
@@ -57,8 +61,8 @@ def test_a_request_survives_its_json_and_damage_is_told():
 
 
 def test_every_task_of_suites_has_a_judge_and_those_for_two_arms_ask_for_two():
-    # What is lifted and put back is a step of chains; drawers are in no scene of suites.
-    assert {*TASKS, *TWO_ARMED, "lift", "open", "close"} == set(JUDGED)
+    # What is lifted and put back is a step of chains.
+    assert {*TASKS, *TWO_ARMED, "lift"} == set(JUDGED)
     with pytest.raises(SuiteError, match='"carry" takes two arms, and panda is one'):
         Request(tasks=("carry",), robot="panda")
     assert Request(tasks=("carry",), robot="panda+panda").tasks == ("carry",)
@@ -113,7 +117,7 @@ def test_what_is_moved_is_not_of_the_colour_of_what_it_comes_from_or_goes_to():
     for place in range(0, 300, 2):
         made = draft(REQUEST, place, 0)
         colours = {obj.name: set(obj.colours) or natural(obj.noun) for obj in made.plan.objects}
-        if made.task == "sort":
+        if made.task == "sort" or made.task.startswith(("open", "close")):
             continue
         for name in made.moved:
             carriers = {rel.parent for rel in made.plan.relations if rel.child == name}
@@ -144,7 +148,12 @@ def test_compositions_keep_their_split_s_promise():
         made, split = draft(REQUEST, place, 0), REQUEST.split_of(place)
         part, _, way = split.partition("/")
         by_name = {obj.name: obj.noun for obj in made.plan.objects}
-        assert {by_name[name] for name in made.moved} <= set(nouns[part if way == "object" else "train"])
+        shown = part if way == "object" else "train"
+        if made.task.startswith(("open:", "close:")):
+            (noun,) = (by_name[name] for name in made.places)
+            assert FIXTURE_OF[noun] in fixtures(REQUEST.seed)[shown]
+        else:
+            assert {by_name[name] for name in made.moved} <= set(nouns[shown])
         structures = structure_splits(REQUEST, REQUEST.task_of(place))["train" if way == "object" else part]
         assert made.structure in {f"{core.name} + {side.name}" for core, side in structures}
         assert REQUEST.objects[0] <= len(made.plan.objects) <= REQUEST.objects[1]
@@ -260,6 +269,9 @@ def test_distractors_are_like_what_is_moved_and_words_still_tell_them_apart():
     """Of its noun in another colour or size, or of its kind; the sentence reads back with sizes and colours."""
     sized = 0
     for place in range(0, 210, 5):
+        if HARD.task_of(place) in ("open", "close"):
+            # A second microwave has no room.
+            continue
         made = draft(HARD, place, 0)
         known = {obj.name: obj for obj in made.plan.objects}
         first = known[made.moved[0]]
