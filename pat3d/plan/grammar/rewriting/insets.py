@@ -1,10 +1,14 @@
-"""What is set into a sentence and moves nothing: coordinates, and in brackets how a deed is done. Each has its note."""
+"""What is set into a sentence and moves nothing: coordinates, how large the room is, how a picture is taken.
+
+So is, in brackets, how a deed is done. Each has its note.
+"""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 
+from pat3d.plan.grammar.rewriting.rooms import ROOMS
 from pat3d.plan.grammar.words.lexing import Token
 
 _N = r"[+-]?\d+(?:\.\d+)?(?: ?(?:mm|cm|m)\b)?"
@@ -22,18 +26,44 @@ _MANNER = re.compile(
     re.IGNORECASE,
 )
 
+_METRES = r"(?<![\d.])(?:[2-9]|\d\d+)(?:\.\d+)?(?: ?-?(?:m|met(?:er|re)s?|ft|feet|foot)\b)?"
+_AREA = rf"(?:{_METRES} ?(?:x|\u00d7|by) ?{_METRES}(?<=[a-z])|\d+ ?(?:square (?:met(?:er|re)s?|feet|foot)|sqm))"
+_WHOLE = rf"(?:an? |the |my |in )*(?:[a-z'-]+,? ){{0,4}}?(?:{'|'.join(sorted(ROOMS))})\b"
+_ROOM_SIZES = (
+    # Behind the name of the room, and at the end, where it is no rug that measures so much.
+    rf"(?P<size>, ?(?:about |measuring )*{_AREA},|(?:,? (?:of|is|that is|which is|measuring|about))* ?\(?{_AREA}\)?)",
+    rf"[^.]*[^.,;(](?<!rug)(?<!carpet)(?<!mat)(?<!bed)(?P<size>(?:[,;.] ?| ?\()(?:about )?{_AREA}\)?)\W*$",
+)
+_ROOM = tuple(re.compile(rf"^{_WHOLE}{each}", re.IGNORECASE) for each in _ROOM_SIZES)
+_SEEN = r"(?:as )?(?:seen|viewed|photographed|captured|shot|shown|pictured|filmed|camera|view|shot)"
+_LEVEL = r"(?:eye|table|tabletop|desk|counter|ground|floor|waist|chest|knee|surface|street|low)[ -]level"
+_CAMERA = re.compile(
+    rf"(?:,? ?\b(?<!\ba ){_SEEN})?(?: from the (?:side|front|top))?,? ?\b(?:at|from) (?:an? |the )?{_LEVEL}(?: (?:view|shot|angle|"
+    r"perspective))?\b"
+    rf"|,? ?\b{_SEEN} from (?:the |an? )?(?:[a-z]+ )?(?:below|underneath|angle|distance|afar|doorway|corner)\b(?! of)"
+    r"|(?:,|\bas) ?(?:as )?(?:seen|viewed) in (?:a|the) mirror\b",
+    re.IGNORECASE,
+)
+_STYLE = re.compile(
+    r"(?:^|, ?)(?:with|in) (?:the |an? )?style of [^,.:;]+(?:[,:]|$)"
+    r"|^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|aesthetic|mood|atmosphere),",
+    re.IGNORECASE,
+)
+_INSETS = ((_COORDINATES, ": nothing is placed by coordinates."), (_MANNER, ""), *((each, ": no room is made.") for each in _ROOM), (_CAMERA, ""), (_STYLE, ""))
+
 
 def without_insets(text: str, tokens: Sequence[Token]) -> tuple[list[Token], list[str]]:
     """`tokens` of `text` without coordinates and without how a deed is done in brackets, and notes of those."""
     notes = list[str]()
     spans = list[tuple[int, int]]()
-    for pattern, why in ((_COORDINATES, ": nothing is placed by coordinates."), (_MANNER, "")):
+    for pattern, why in _INSETS:
         for found in pattern.finditer(text):
-            said = found.group().strip(" ," if why else " ,()!.")
-            if why and said[0] in "([" and "m" in said:
+            which = "size" if "size" in found.groupdict() else 0
+            said = found[which].strip(" ,:;()!.")
+            if pattern is _COORDINATES and found[0].strip(" ,")[0] in "([" and "m" in said:
                 # "Two cups (3 cm, 5 cm)" are as large.
                 continue
-            spans.append(found.span())
+            spans.append(found.span(which))
             notes.append(f'not modelled: "{said}"{why}')
     kept = [token for token in tokens if not any(start <= token.start < end for start, end in spans)]
     return kept, notes if any(not token.mark for token in kept) else []

@@ -9,8 +9,9 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.links import WHICH_EDGE
+from pat3d.plan.grammar.words.links import LINKS, WHICH_EDGE
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _NEAR = frozenset({"in", "at", "on", "near"})
 _MIDDLES = frozenset({"middle", "center", "centre"})
@@ -29,7 +30,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
     the floor stands in the corner of a room.
     """
-    tokens = _whole(_other_places(_parts_again(tokens, nouns)), nouns)
+    tokens = _whole(_other_places(_parts_again(_of_the_room(tokens, nouns), nouns)), nouns)
     words = [token.text for token in tokens]
     told = _told(words, nouns)
     level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
@@ -55,6 +56,18 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if owner:
             made += [replace(token, text=word) for word in ("of", "the", *owner.split())]
     return made
+
+
+def _of_the_room(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "a rug in the middle in front of the sofa" as "a rug in front of the sofa": no middle of a sofa."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 5):
+        after = at + 3 + (words[at + 3] == ",")
+        beside = LINKS.get(tuple(words[after : after + link_at(tokens, after)]))
+        middle = words[at] in _NEAR and words[at + 1] == "the" and words[at + 2] in _MIDDLES
+        if middle and beside is not None and beside.kind in LATERAL_KINDS and not _small(words[:at], nouns):
+            return [*tokens[:at], *tokens[after:]]
+    return tokens
 
 
 def _parts_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

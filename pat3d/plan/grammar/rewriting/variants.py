@@ -31,7 +31,6 @@ top up/off the/a/an/my/your = fill 2
 get/take a grip on = grasp
 get/take a firm/good/tight/secure grip on = grasp
 you find/see in/on/under/behind/inside/beside/near = 2
-pile/stack/piles/stacks of papers = 1 of paper
 piece/scrap/slip of paper = sheet of paper
 pieces/scraps/slips of paper = sheets of paper
 not far from = near
@@ -109,6 +108,7 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
+_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "parchments", "manuscripts", "sheets", "paperwork"})
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
@@ -121,7 +121,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_alike(_hued(_begun(tokens)), nouns))
+    usual = _papers(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns)
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
@@ -195,6 +195,35 @@ def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
     head = next(n for n in range(1, verb + 1) if n == verb or link_at(tokens, n)) - 1
     same = nouns.match([words[head]]) is not None and words[-2] in (words[head], "one")
     return [*tokens[: verb + 1], replace(said[0], end=tokens[-2].end), tokens[-1]] if same else tokens
+
+
+def _papers(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "a stack of parchment", "a pile of white sheets" as "a stack of paper", "a white pile of paper"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4, -1, -1):
+        if not {words[at], *singulars(words[at])} & lexicon.STACK_NOUNS or words[at + 1] != "of":
+            continue
+        first = at + 2
+        head = next((n for n in range(first, min(first + 5, len(words))) if _is_paper(words, n, nouns)), 0)
+        between = words[first:head]
+        if not head or any(token.mark for token in tokens[first:head]) or {*between} & {*lexicon.LEADING, *FINITE, "and"}:
+            continue
+        looks = [
+            token for token in tokens[first:head]
+            if is_modifier(token.text) or not (token.text in _SHEETS | {"of"} or nouns.match([token.text]))
+        ]  # fmt: skip
+        pile = words[at] if nouns.match([words[at], "of", "paper"]) else "pile"
+        paper = replace(tokens[head], text="paper", start=tokens[first].start)
+        tokens = [*tokens[:at], *looks, replace(tokens[at], text=pile), tokens[at + 1], paper, *tokens[head + 1 :]]
+    return tokens
+
+
+def _is_paper(words: Sequence[str], at: int, nouns: Nouns) -> bool:
+    """Whether the name at `at` ends there and is of sheets: "documents", but neither "paper plates" nor "toilet paper"."""
+    found, whole = nouns.match(words[at : at + 1]), nouns.match(words[at - 1 : at + 1])
+    sheets = words[at] in _SHEETS or (found is not None and found.noun == _PAPER)
+    other = whole is not None and whole.noun != _PAPER and words[at - 1] != "parchment"
+    return sheets and not other and words[at + 1] not in _SHEETS | {"of"} and nouns.match(words[at : at + 2]) is None
 
 
 def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
