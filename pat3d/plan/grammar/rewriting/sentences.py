@@ -24,6 +24,7 @@ from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.number_words import ORDINALS
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import SUPPORT_KINDS
 
 CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 """Words that open what has to be before something is done."""
@@ -44,13 +45,15 @@ _LADEN = frozenset({
 
 _HAD = ("of", "with")
 _COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
+_UNNAMED = frozenset({"items", "objects", "things", "elements"})
+"""Words for several things of which something else says what they are."""
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
 
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _set_apart(_contents(_and_no_more(told_plainly(next_deeds(tokens))), nouns))
+    tokens = _set_apart(_contents(_unnamed(_and_no_more(told_plainly(next_deeds(tokens))), nouns), nouns))
     cut = with_goals(_cut(tokens, nouns), nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
@@ -105,6 +108,35 @@ def _contents(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if laden and verb in (at - 2, at - 3) and words[start] in ("the", "my", "this", "our") and not placed:
             made[at : at + 3] = [replace(tokens[at], text=":", mark=True)]
     return made
+
+
+def _unnamed(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "several objects are on a desk. There is a cup. There is a pen." as "...: a cup, a pen."."""
+    words, made, before, at = [token.text for token in tokens], list[Token](), list[str](), 0
+    while at < len(tokens):
+        stop = next((n for n in range(at + 1, len(words)) if words[n] == "."), 0)
+        lists = words[at] == "." and words[at + 1 : at + 2] == ["there"] and {*words[at + 2 : at + 3]} & {"is", "are"}
+        links = (LINKS.get(tuple(words[n : n + link_at(tokens, n)])) for n in range(at + 3, stop))
+        placed = any(link is not None and link.kind in SUPPORT_KINDS and not link.inverse for link in links)
+        plain = words[at + 3 : at + 4] and words[at + 3] not in ("no", "not", "nothing", "also", "another")
+        if lists and plain and not placed and stop and _has_unnamed(before, nouns):
+            made.append(replace(tokens[at], text="," if ":" in before else ":", mark=True))
+            before.append(":")
+            at += 3
+            continue
+        before = [] if words[at] == "." else [*before, words[at]]
+        made.append(tokens[at])
+        at += 1
+    return made
+
+
+def _has_unnamed(words: Sequence[str], nouns: Nouns) -> bool:
+    """Whether `words` up to a colon are of "several objects on a desk", which only what follows names."""
+    words = words[: words.index(":")] if ":" in words else words
+    last = nouns.match(words[-1:])
+    surface = (last is not None and nouns.of_class(last.noun, lexicon.LEVEL)) or words[-2:] == ["on", "it"]
+    told = {"such", "including", "like", "these", "all"} & {*words}
+    return surface and bool(_UNNAMED & {*words}) and not told and not known_verb(words[0])
 
 
 def _and_no_more(tokens: Sequence[Token]) -> list[Token]:

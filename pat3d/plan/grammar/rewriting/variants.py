@@ -25,6 +25,7 @@ all of the/these/those/my/your/our/his/her = all 1
 they are both/all = 1 are
 all of it = it
 near by = nearby
+off center/centre on/in/at = 2
 in side the = inside the
 get rid of = discard
 top up/off the/a/an/my/your = fill 2
