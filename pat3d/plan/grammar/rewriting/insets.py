@@ -45,8 +45,7 @@ _CAMERA = re.compile(
     re.IGNORECASE,
 )
 _STYLE = re.compile(
-    r"(?:^|, ?)(?:with|in) (?:the |an? )?style of [^,.:;]+(?:[,:]|$)"
-    r"|^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|aesthetic|mood|atmosphere),",
+    r"^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|aesthetic|mood|atmosphere),",
     re.IGNORECASE,
 )
 _INSETS = ((_COORDINATES, ": nothing is placed by coordinates."), (_MANNER, ""), *((each, ": no room is made.") for each in _ROOM), (_CAMERA, ""), (_STYLE, ""))

@@ -21,7 +21,7 @@ from pat3d.plan.grammar.words.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_STYLES = (("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
+_STYLES = (("with", "the", "style", "of"), ("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
 _NUMBER = rf"(?:{'|'.join(lexicon.NUMBERS)}|\d+)"
 _MEASURE = "(?:height|size|length|width|weight|age|brightness|volume)"
 _DIRECTION = "(?:decreasing|increasing|ascending|descending)"
@@ -141,14 +141,14 @@ def _trait(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
 
 
 def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "a chair in the style of Van Gogh stands" as "a chair stands"."""
-    for at in range(1, len(words) - 2):
+    """Read "a chair in the style of Van Gogh stands" as "a chair stands", "in the style of art, a cup" as "a cup"."""
+    for at in range(len(words) - 2):
         size = next((len(said) for said in _STYLES if tuple(words[at : at + len(said)]) == said), 0)
         if not size:
             continue
         begun = range(at + size + 1, len(words))
         end = next(n for n in begun if tokens[n].mark or words[n] in FINITE or _goes_on(tokens, n, nouns))
-        return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+        return [*tokens[:at], *tokens[end + (not at and words[end] == ",") :]], [(tokens[at], tokens[end - 1])]
     return None
 
 
