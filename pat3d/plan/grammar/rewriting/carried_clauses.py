@@ -8,7 +8,7 @@ from dataclasses import replace
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.links import LINKS
+from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -21,7 +21,25 @@ _TOO = (("too",), ("as", "well"))
 
 def of_the_carried(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a desk with a bucket on it that holds a comb" as "... on it. The bucket holds a comb"."""
-    return _as_many(_its_own(_on_it_too(_also_there(list(tokens), nouns)), nouns), nouns)
+    return _as_many(_its_own(_on_it_too(_rug_under(_also_there(list(tokens), nouns), nouns)), nouns), nouns)
+
+
+def _rug_under(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a lamp on the table and a rug under it" as "... under the table": no rug lies on a table."""
+    words = [token.text for token in tokens]
+    for at in (n for n in range(4, len(words)) if words[n] == "it"):
+        link = next((n for n in range(at - 1, at - 4, -1) if link_at(tokens, n) == at - n), 0)
+        under = LINKS[tuple(words[link:at])].manner == "under" if link else False
+        on = max((n for n in range(link) if words[n] == "on" and words[n + 1] in lexicon.DETERMINERS), default=0)
+        stop = next(n for n in range(on + 1, len(words)) if tokens[n].mark or words[n] in FINITE | {"and", "with"})
+        found = nouns.longest(words[on + 2 : stop])
+        below = words[link - 1 - (words[link - 1] in lexicon.STANDING)]
+        alone = not any(link_at(tokens, n) and words[n] != "with" for n in range(stop, link))
+        rug = nouns.match([below]) if under and on and alone else None
+        if rug and found and nouns.of_class(rug.noun, (*lexicon.FLOOR, "mat")) and nouns.of_class(found[0].noun, lexicon.FLOOR):
+            the = replace(tokens[at], text="the")
+            return [*tokens[:at], the, *(replace(tokens[at], text=one) for one in words[on + 2 : stop]), *tokens[at + 1 :]]
+    return tokens
 
 
 def _also_there(tokens: list[Token], nouns: Nouns) -> list[Token]:

@@ -16,7 +16,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -74,7 +74,7 @@ _BUNCHES = frozenset({"cluster", "bundle", "bunch", "clump", "huddle", "queue", 
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, one_of_stuff, _style, _stuffs, _aside, _ready, _if, _outlined, _labels, in_turn,
+    for told in (choice, one_of_stuff, _style, _same, _stuffs, _aside, _ready, _if, _outlined, _labels, in_turn,
                  _in_that_order, _such_that, _trait, _seeming, _in_a_bunch, ways.begun, ways.parallel):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
@@ -150,6 +150,17 @@ def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
         end = next(n for n in begun if tokens[n].mark or words[n] in FINITE or _goes_on(tokens, n, nouns))
         return [*tokens[:at], *tokens[end + (not at and words[end] == ",") :]], [(tokens[at], tokens[end - 1])]
     return None
+
+
+def _same(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "the armchair is the corner chair" as "the armchair"; which of several it is told by, a rank or a colour."""
+    verb = next((n for n in range(2, len(words) - 3) if words[n : n + 2] == ["is", "the"]), 0)
+    if not verb or words[0] not in ("the", "this", "my") or any(link_at(tokens, n) or tokens[n].mark for n in range(len(words) - 1)):
+        return None
+    which = {*lexicon.TELLING, *lexicon.NUMBERS, *lexicon.PRONOUNS, "one", "other", "and"}
+    told = which & {*words} or any(is_colour_word(word) for word in words)
+    named = nouns.longest(words[1:verb]) and nouns.longest(words[verb + 2 : -1])
+    return ([*tokens[:verb], tokens[-1]], [(tokens[verb], tokens[-2])]) if named and not told else None
 
 
 def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
