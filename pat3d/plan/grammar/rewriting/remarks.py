@@ -73,6 +73,7 @@ class Remarks:
                 or self._lacking(at)
                 or self._participle(at)
                 or self._verb(at)
+                or self._owner(at)
             )
             if end:
                 made.append((at, end))
@@ -251,6 +252,19 @@ class Remarks:
         link = LINKS.get(tuple(self._words[at + 1 : at + 1 + size]))
         placing = link is not None and link.manner not in ("source", "goal", "of") and self._begins(at + 1 + size)
         return at + 1 if unknown and verb and placing and self._single(at) else 0
+
+    def _owner(self, at: int) -> int:
+        """The end of "of a student" at `at`, behind furniture or a room: who is no thing."""
+        found = next((self._nouns.match(self._words[at - n : at]) for n in (2, 1) if self._named.get(at - n) == n), None)
+        whole = self._words[at - 1] in lexicon.BACKGROUND or (found and self._nouns.of_class(found.noun, lexicon.FLOOR))
+        end = at + 3
+        while whole and end < len(self._words) and self._words[end].isalpha() and not self._ends(end):
+            end += 1
+        owned = whole and self._words[at] == "of" and self._words[at + 1] in ("a", "an", "the", "my", "our")
+        return end if owned and self._empty(at, end) and self._ends(end) else 0
+
+    def _ends(self, at: int) -> bool:
+        return self._tokens[at].mark or self._words[at] in JOINERS | FINITE or link_at(self._tokens, at) > 0
 
     def _behind_noun(self, at: int) -> bool:
         """Whether a noun, or a part of one, ends right before `at` or before the comma there."""
