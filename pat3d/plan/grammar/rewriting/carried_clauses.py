@@ -56,7 +56,7 @@ def _also_there(tokens: list[Token], nouns: Nouns) -> list[Token]:
             at = [replace(each, start=tokens[stop].start, end=tokens[stop].start) for each in place]
             return _also_there([*tokens[:stop], *at, *tokens[stop:]], nouns)
         if not more:
-            place = _fronted(tokens[start:stop], [n - start for n in links], nouns)
+            place = _fronted(tokens[start : stop + 1], [n - start for n in links], nouns)
         start = stop + 1
     return tokens
 

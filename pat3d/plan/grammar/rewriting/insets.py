@@ -28,27 +28,23 @@ _MANNER = re.compile(
 
 _METRES = r"(?<![\d.])(?:[2-9]|\d\d+)(?:\.\d+)?(?: ?-?(?:m|met(?:er|re)s?|ft|feet|foot)\b)?"
 _AREA = rf"(?:{_METRES} ?(?:x|\u00d7|by) ?{_METRES}(?<=[a-z])|\d+ ?(?:square (?:met(?:er|re)s?|feet|foot)|sqm))"
-_WHOLE = rf"(?:an? |the |my |in )*(?:[a-z'-]+,? ){{0,4}}?(?:{'|'.join(sorted(ROOMS))})\b"
-_ROOM_SIZES = (
-    # Behind the name of the room, and at the end, where it is no rug that measures so much.
-    rf"(?P<size>, ?(?:about |measuring )*{_AREA},|(?:,? (?:of|is|that is|which is|measuring|about))* ?\(?{_AREA}\)?)",
-    rf"[^.]*[^.,;(](?<!rug)(?<!carpet)(?<!mat)(?<!bed)(?P<size>(?:[,;.] ?| ?\()(?:about )?{_AREA}\)?)\W*$",
+_ROOM_SIZE = re.compile(
+    rf"^(?:an? |the |my |in )*(?:[a-z'-]+,? ){{0,4}}?(?:{'|'.join(sorted(ROOMS))})\b"
+    rf"(?:(?P<own>, ?(?:about |measuring )*{_AREA},|(?:,? (?:of|is|that is|which is|measuring|about))* ?\(?{_AREA}\)?)"
+    # At the end, where it is no rug that measures so much.
+    rf"|[^.]*[^.,;(](?<!rug)(?<!carpet)(?<!mat)(?<!bed)(?P<end>(?:[,;.] ?| ?\()(?:about )?{_AREA}\)?)\W*$)",
+    re.IGNORECASE,
 )
-_ROOM = tuple(re.compile(rf"^{_WHOLE}{each}", re.IGNORECASE) for each in _ROOM_SIZES)
-_SEEN = r"(?:as )?(?:seen|viewed|photographed|captured|shot|shown|pictured|filmed|camera|view|shot)"
-_LEVEL = r"(?:eye|table|tabletop|desk|counter|ground|floor|waist|chest|knee|surface|street|low)[ -]level"
-_CAMERA = re.compile(
-    rf"(?:,? ?\b(?<!\ba ){_SEEN})?(?: from the (?:side|front|top))?,? ?\b(?:at|from) (?:an? |the )?{_LEVEL}(?: (?:view|shot|angle|"
-    r"perspective))?\b"
+_SEEN = r"(?:as )?(?:seen|viewed|photographed|captured|shown|pictured|filmed|camera|view|shot)"
+_VIEW = re.compile(
+    rf"(?:,? ?\b(?<!\ba ){_SEEN})?(?: from the (?:side|front|top))?,? ?\b(?:at|from) (?:an? |the )?"
+    r"(?:eye|table|tabletop|desk|counter|ground|floor|surface|low)[ -]level(?: (?:view|shot|angle))?\b"
     rf"|,? ?\b{_SEEN} from (?:the |an? )?(?:[a-z]+ )?(?:below|underneath|angle|distance|afar|doorway|corner)\b(?! of)"
-    r"|(?:,|\bas) ?(?:as )?(?:seen|viewed) in (?:a|the) mirror\b",
+    r"|(?:,|\bas) ?(?:as )?(?:seen|viewed) in (?:a|the) mirror\b"
+    r"|^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|mood),",
     re.IGNORECASE,
 )
-_STYLE = re.compile(
-    r"^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|aesthetic|mood|atmosphere),",
-    re.IGNORECASE,
-)
-_INSETS = ((_COORDINATES, ": nothing is placed by coordinates."), (_MANNER, ""), *((each, ": no room is made.") for each in _ROOM), (_CAMERA, ""), (_STYLE, ""))
+_INSETS = ((_COORDINATES, ": nothing is placed by coordinates."), (_ROOM_SIZE, ": no room is made."), (_MANNER, ""), (_VIEW, ""))
 
 
 def without_insets(text: str, tokens: Sequence[Token]) -> tuple[list[Token], list[str]]:
@@ -57,9 +53,9 @@ def without_insets(text: str, tokens: Sequence[Token]) -> tuple[list[Token], lis
     spans = list[tuple[int, int]]()
     for pattern, why in _INSETS:
         for found in pattern.finditer(text):
-            which = "size" if "size" in found.groupdict() else 0
-            said = found[which].strip(" ,:;()!.")
-            if pattern is _COORDINATES and found[0].strip(" ,")[0] in "([" and "m" in said:
+            which = next((name for name, said in found.groupdict().items() if said), 0)
+            said = found[which].strip(" ," if pattern is _COORDINATES else " ,;()!.")
+            if pattern is _COORDINATES and said[0] in "([" and "m" in said:
                 # "Two cups (3 cm, 5 cm)" are as large.
                 continue
             spans.append(found.span(which))

@@ -91,18 +91,19 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def _called(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "4 blocks. b3 is on b2", "4 blocks. C is on B", as "4 blocks. block 3 is on block 2"."""
-    words, called = [token.text for token in tokens], dict[int, str]()
+    words = [token.text for token in tokens]
     count = next((n for n in range(len(words) - 2) if numeral(words[n]) > 1 and singulars(words[n + 1])), len(words))
-    for at in range(count + 2, len(words) - 1):
-        before = nouns.match(words[at - 1 : at])
-        if nouns.match(words[at : at + 1]) is None and (before is None or before.plural):
-            short = re.fullmatch(r"[a-z](\d)", words[at])
-            called[at] = short[1] if short else _label(text, tokens, at) if words[at].isalpha() else ""
-    called = {at: label for at, label in called.items() if label}
-    name = next((one for one in singulars(words[count + 1]) if nouns.match([one])), "") if called else ""
-    named = bool(name) and len({*called.values()}) > 1
-    return [one for at, token in enumerate(tokens) for one in (
-        (replace(token, text=name), replace(token, text=called[at])) if named and at in called else (token,))]  # fmt: skip
+    name = next((one for one in singulars(words[count + 1]) if nouns.match([one])), "") if count < len(words) else ""
+    called = {
+        at: label for at in range(count + 2, len(words) - 1 if name and not LABELLED & {*words} else 0)
+        if not nouns.match(words[at : at + 1]) and not ((before := nouns.match(words[at - 1 : at])) and not before.plural)
+        and (label := words[at][1:] if re.fullmatch(r"[a-z]\d", words[at]) else _label(text, tokens, at))
+        and words[at][0].isalpha()
+    }  # fmt: skip
+    if len({*called.values()}) < 2:
+        return list(tokens)
+    named = {at: (replace(tokens[at], text=name), replace(tokens[at], text=label)) for at, label in called.items()}
+    return [one for at, token in enumerate(tokens) for one in named.get(at, (token,))]
 
 
 def _name(named: Sequence[Token]) -> str:

@@ -14,7 +14,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_colour_word
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _NEGATIONS = frozenset({
@@ -34,13 +34,14 @@ def choice(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     So is "whichever jar is taller" "the taller of the two jars", and "put it in either the jar or the box" without
     "either". "A shelf or rack" is one thing, the first.
     """
-    for at in range(2, len(words) - 2):
-        start = next((n for n in range(at - 1, max(at - 6, -1), -1) if words[n] in ("a", "an") or tokens[n].mark), 0)
-        one = words[at] == "or" and words[start] in ("a", "an") and not is_colour_word(words[at - 1])
-        end = next((n for n in range(at + 1, at + 4) if one and nouns.longest(words[at + 1 : n + 1])), 0)
+    for at in (n for n in range(2, len(words) - 2) if words[n] == "or" and not is_colour_word(words[n - 1])):
+        start = at - next((n for n in (3, 2, 1) if nouns.match(words[max(at - n, 0) : at])), at)
+        while start and is_modifier(words[start - 1]):
+            start -= 1
+        end = next((n for n in range(at + 1, at + 4) if nouns.longest(words[at + 1 : n + 1])), 0)
         end += bool(end and nouns.match(words[end : end + 2]))
-        named = end and nouns.match(words[at - 1 : at]) and not {*words[at + 1 : end + 1]} & lexicon.LEADING
-        if named and (tokens[end + 1].mark or link_at(tokens, end + 1) or words[end + 1] in FINITE | {"and", "filled"}):
+        one = start and words[start - 1] in ("a", "an") and not {*words[at + 1 : end + 1]} & lexicon.LEADING
+        if one and end and (tokens[end + 1].mark or link_at(tokens, end + 1) or words[end + 1] in FINITE | {"and"}):
             return [*tokens[:at], *tokens[end + 1 :]], [(tokens[at], tokens[end])]
     for at in range(len(words) - 2):
         if words[at] not in ("either", "whichever") or words[at + 1] in ("side", "end", "is"):

@@ -257,7 +257,7 @@ class Remarks:
         """The end of "of a student" at `at`, behind furniture or a room: who is no thing."""
         found = next((self._nouns.match(self._words[at - n : at]) for n in (2, 1) if self._named.get(at - n) == n), None)
         whole = self._words[at - 1] in lexicon.BACKGROUND or (found and self._nouns.of_class(found.noun, lexicon.FLOOR))
-        end = at + 3
+        end = min(at + 3, len(self._words) - 1)
         while whole and end < len(self._words) and self._words[end].isalpha() and not self._ends(end):
             end += 1
         owned = whole and self._words[at] == "of" and self._words[at + 1] in ("a", "an", "the", "my", "our")
