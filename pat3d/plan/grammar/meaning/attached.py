@@ -135,11 +135,10 @@ def lay_table(world: World) -> None:
         tables = [item for item in items if world.is_a(item, names)]
         free = [item for item in items[items.index(tables[0]) :] if item not in taken] if len(tables) == 1 else []
         laid = (at for at, one in enumerate(free) if lexicon.LAID & {one.group.said, *singulars(one.group.said)})
-        on_it = free[next(laid, len(free)) :] if names is _TABLES else [
-            item for item in free if world.is_a(item, (*lexicon.DEVICES, "computer mouse"))
-        ]  # fmt: skip
-        for item in on_it:
-            if not (world.on_floor(item) or world.is_a(item, LARGE)):
+        first = next(laid, len(free)) if names is _TABLES else 0
+        for item in free[first:]:
+            device = names is _TABLES or world.is_a(item, (*lexicon.DEVICES, "computer mouse"))
+            if device and not (world.on_floor(item) or world.is_a(item, LARGE)):
                 world.place([item], "on", tables, weak=True)
                 world.note(f'assumed: "{item.group.words}" on "{tables[0].group.words}"')
 

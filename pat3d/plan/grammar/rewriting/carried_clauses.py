@@ -27,18 +27,17 @@ def of_the_carried(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 def _rug_under(tokens: list[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a lamp on the table and a rug under it" as "... under the table": no rug lies on a table."""
     words = [token.text for token in tokens]
-    for at in (n for n in range(4, len(words)) if words[n] == "it"):
-        link = next((n for n in range(at - 1, at - 4, -1) if link_at(tokens, n) == at - n), 0)
-        under = LINKS[tuple(words[link:at])].manner == "under" if link else False
-        on = max((n for n in range(link) if words[n] == "on" and words[n + 1] in lexicon.DETERMINERS), default=0)
+    for at in (n for n in range(5, len(words)) if words[n] == "it"):
+        under = LINKS.get((words[at - 1],), None)
+        rug = nouns.match([words[at - 2 - (words[at - 2] in lexicon.STANDING)]])
+        on = max((n for n in range(at) if words[n] == "on" and words[n + 1] in lexicon.DETERMINERS), default=0)
         stop = next(n for n in range(on + 1, len(words)) if tokens[n].mark or words[n] in FINITE | {"and", "with"})
-        found = nouns.longest(words[on + 2 : stop])
-        below = words[link - 1 - (words[link - 1] in lexicon.STANDING)]
-        alone = not any(link_at(tokens, n) and words[n] != "with" for n in range(stop, link))
-        rug = nouns.match([below]) if under and on and alone else None
-        if rug and found and nouns.of_class(rug.noun, (*lexicon.FLOOR, "mat")) and nouns.of_class(found[0].noun, lexicon.FLOOR):
-            the = replace(tokens[at], text="the")
-            return [*tokens[:at], the, *(replace(tokens[at], text=one) for one in words[on + 2 : stop]), *tokens[at + 1 :]]
+        table = nouns.longest(words[on + 2 : stop]) if on and under is not None and under.manner == "under" else None
+        alone = not any(link_at(tokens, n) and words[n] != "with" for n in range(stop, at - 1))
+        floor = (*lexicon.FLOOR, "mat")
+        if rug and table and alone and nouns.of_class(rug.noun, floor) and nouns.of_class(table[0].noun, floor):
+            name = [replace(tokens[at], text=word) for word in ("the", *words[on + 2 : stop])]
+            return [*tokens[:at], *name, *tokens[at + 1 :]]
     return tokens
 
 

@@ -44,7 +44,12 @@ _VIEW = re.compile(
     r"|^with (?:an? |the )?(?:(?!(?:of|and|on|in|with) )[\w'-]+ ){1,3}(?:look|style|vibe|feel|mood),",
     re.IGNORECASE,
 )
-_INSETS = ((_COORDINATES, ": nothing is placed by coordinates."), (_ROOM_SIZE, ": no room is made."), (_MANNER, ""), (_VIEW, ""))
+_INSETS = (
+    (_COORDINATES, ": nothing is placed by coordinates."),
+    (_ROOM_SIZE, ": no room is made."),
+    (_MANNER, ""),
+    (_VIEW, ""),
+)
 
 
 def without_insets(text: str, tokens: Sequence[Token]) -> tuple[list[Token], list[str]]:

@@ -21,7 +21,12 @@ from pat3d.plan.grammar.words.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_STYLES = (("with", "the", "style", "of"), ("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
+_STYLES = (
+    ("with", "the", "style", "of"),
+    ("in", "the", "style", "of"),
+    ("in", "the", "manner", "of"),
+    ("in", "style", "of"),
+)
 _NUMBER = rf"(?:{'|'.join(lexicon.NUMBERS)}|\d+)"
 _MEASURE = "(?:height|size|length|width|weight|age|brightness|volume)"
 _DIRECTION = "(?:decreasing|increasing|ascending|descending)"
@@ -155,7 +160,11 @@ def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
 def _same(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "the armchair is the corner chair" as "the armchair"; which of several it is told by, a rank or a colour."""
     verb = next((n for n in range(2, len(words) - 3) if words[n : n + 2] == ["is", "the"]), 0)
-    if not verb or words[0] not in ("the", "this", "my") or any(link_at(tokens, n) or tokens[n].mark for n in range(len(words) - 1)):
+    if (
+        not verb
+        or words[0] not in ("the", "this", "my")
+        or any(link_at(tokens, n) or tokens[n].mark for n in range(len(words) - 1))
+    ):
         return None
     which = {*lexicon.TELLING, *lexicon.NUMBERS, *lexicon.PRONOUNS, "one", "other", "and"}
     told = which & {*words} or any(is_colour_word(word) for word in words)

@@ -91,19 +91,16 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def _called(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "4 blocks. b3 is on b2", "4 blocks. C is on B", as "4 blocks. block 3 is on block 2"."""
-    words = [token.text for token in tokens]
+    words, named = [token.text for token in tokens], dict[int, tuple[Token, ...]]()
     count = next((n for n in range(len(words) - 2) if numeral(words[n]) > 1 and singulars(words[n + 1])), len(words))
     name = next((one for one in singulars(words[count + 1]) if nouns.match([one])), "") if count < len(words) else ""
-    called = {
-        at: label for at in range(count + 2, len(words) - 1 if name and not LABELLED & {*words} else 0)
-        if not nouns.match(words[at : at + 1]) and not ((before := nouns.match(words[at - 1 : at])) and not before.plural)
-        and (label := words[at][1:] if re.fullmatch(r"[a-z]\d", words[at]) else _label(text, tokens, at))
-        and words[at][0].isalpha()
-    }  # fmt: skip
-    if len({*called.values()}) < 2:
-        return list(tokens)
-    named = {at: (replace(tokens[at], text=name), replace(tokens[at], text=label)) for at, label in called.items()}
-    return [one for at, token in enumerate(tokens) for one in named.get(at, (token,))]
+    for at in range(count + 2, len(words) - 1 if name and not LABELLED & {*words} else 0):
+        before, short = nouns.match(words[at - 1 : at]), re.fullmatch(r"[a-z](\d)", words[at])
+        label = short[1] if short else _label(text, tokens, at) if words[at].isalpha() else ""
+        if label and not nouns.match(words[at : at + 1]) and (before is None or before.plural):
+            named[at] = replace(tokens[at], text=name), replace(tokens[at], text=label)
+    several = len({label.text for _, label in named.values()}) > 1
+    return [one for at, token in enumerate(tokens) for one in (several and named.get(at)) or (token,)]
 
 
 def _name(named: Sequence[Token]) -> str:

@@ -255,16 +255,13 @@ class Remarks:
 
     def _owner(self, at: int) -> int:
         """The end of "of a student" at `at`, behind furniture or a room: who is no thing."""
-        found = next((self._nouns.match(self._words[at - n : at]) for n in (2, 1) if self._named.get(at - n) == n), None)
+        names = (self._nouns.match(self._words[at - n : at]) for n in (2, 1) if self._named.get(at - n) == n)
+        found = next(names, None)
         whole = self._words[at - 1] in lexicon.BACKGROUND or (found and self._nouns.of_class(found.noun, lexicon.FLOOR))
-        end = min(at + 3, len(self._words) - 1)
-        while whole and end < len(self._words) and self._words[end].isalpha() and not self._ends(end):
-            end += 1
-        owned = whole and self._words[at] == "of" and self._words[at + 1] in ("a", "an", "the", "my", "our")
-        return end if owned and self._empty(at, end) and self._ends(end) else 0
-
-    def _ends(self, at: int) -> bool:
-        return self._tokens[at].mark or self._words[at] in JOINERS | FINITE or link_at(self._tokens, at) > 0
+        told = (n for n in range(at + 2, len(self._words)) if self._tokens[n].mark or link_at(self._tokens, n)
+                or self._words[n] in JOINERS | FINITE)  # fmt: skip
+        end = next(told, 0) if whole and self._words[at] == "of" and self._words[at + 1] in ("a", "an", "my") else 0
+        return end if end > at + 2 and self._empty(at, end) else 0
 
     def _behind_noun(self, at: int) -> bool:
         """Whether a noun, or a part of one, ends right before `at` or before the comma there."""

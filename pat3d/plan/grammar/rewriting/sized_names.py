@@ -27,7 +27,7 @@ _BY: dict[str, tuple[Callable[..., tuple[str, ...]], Callable[[tuple[float, ...]
     **dict.fromkeys(("largest", "biggest"), (max, prod)), **dict.fromkeys(("smallest", "tiniest"), (min, prod)),
     "tallest": (max, itemgetter(2)), "shortest": (min, itemgetter(2)), "longest": (max, max),
 }  # fmt: skip
-_OTHERS = frozenset({"remaining", "other", "last", "third", "medium", "medium-sized"})
+_LEFT = frozenset({"remaining", "other", "last", "third", "medium", "medium-sized"})
 """Ranks of unlike things, by what they are told; and what is left then."""
 _ENDS = {"smallest": "smaller", "largest": "larger", "biggest": "bigger"}
 
@@ -56,30 +56,27 @@ def by_size(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _of_the_listed(tokens: list[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "a fig and a melon, the largest fruit on the left" as "a fig and a melon, the melon on the left"."""
-    words = [token.text for token in tokens]
-    ranks = [at for at in range(1, len(words) - 1) if words[at - 1] == "the" and words[at] in (*_BY, *_OTHERS)]
-    listed: dict[tuple[str, ...], tuple[float, ...]] = {}
-    for at in range(ranks[0] if ranks else 0):
+    """`tokens` with "a fig and a melon, the largest fruit on the left" as "a fig and a melon, the melon on ..."."""
+    words, listed, made = [token.text for token in tokens], dict[tuple[str, ...], tuple[float, ...]](), list(tokens)
+    ranks = [at for at in range(1, len(words) - 1) if words[at - 1] == "the" and words[at] in (*_BY, *_LEFT)]
+    for at in range(ranks[0] if ranks and words[ranks[0]] in _BY else 0):
         size = next((n for n in (3, 2, 1) if nouns.match(words[at : at + n])), 0)
         found = nouns.match(words[at : at + size])
-        lead = next((word for word in reversed(words[max(at - 3, 0) : at]) if not is_modifier(word)), "")
-        if found is not None and lead in ("a", "an") and not nouns.of_class(found.noun, lexicon.FLOOR):
+        first = next((n for n in range(at - 1, 0, -1) if not is_modifier(words[n])), 0)
+        if found is not None and words[first] in ("a", "an") and not nouns.of_class(found.noun, lexicon.FLOOR):
             listed[tuple(words[at : at + size])] = extents(found.noun)
-    left, made = {*listed}, list(tokens)
-    if len(listed) < 2 or not all(listed.values()) or words[ranks[0]] not in _BY:
+    if len(listed) < 2 or not all(listed.values()):
         return tokens
-    for at in ranks:
-        head = at + 1 + ({words[at + 1]} <= {*lexicon.ITEMS, *lexicon.GENERICS, "one", "thing"})
-        ends = tokens[head].mark or link_at(tokens, head) or words[head] in FINITE | {"and", "is"}
-        pick, of = _BY.get(words[at], (min, max))
-        if not ends or (words[at] in _OTHERS and len(left) != 1):
+    of = {at: pick(listed, key=lambda name, by=by: by(listed[name]))
+          for at in ranks if words[at] in _BY for pick, by in (_BY[words[at]],)}  # fmt: skip
+    left = [name for name in listed if name not in of.values()]
+    for at in reversed(ranks):
+        head = at + 1 + (words[at + 1] in {*lexicon.ITEMS, *lexicon.GENERICS, "one", "thing"})
+        ends = tokens[head].mark or link_at(tokens, head) or words[head] in FINITE | {"and"}
+        if not ends or (at not in of and len(left) != 1):
             return tokens
-        name = pick(listed, key=lambda name, of=of: of(listed[name])) if words[at] in _BY else left.pop()
-        left -= {name}
-        made[at] = replace(tokens[at], text=" ".join(name), end=tokens[head - 1].end)
-        made[at + 1 : head] = [replace(tokens[at], text="") for _ in range(at + 1, head)]
-    return [replace(token, text=word) for token in made for word in token.text.split()]
+        made[at:head] = [replace(tokens[at], text=word, end=tokens[head - 1].end) for word in (of.get(at) or left[0])]
+    return made
 
 
 def _both_ends(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -15,10 +15,14 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _NEAR = frozenset({"in", "at", "on", "near"})
 _MIDDLES = frozenset({"middle", "center", "centre"})
-_OFF = {**dict.fromkeys(("slightly", "just", "a", "bit", "little", "somewhat", "and", "to", "towards", "toward", "the",
-                         "in", "of"), ""),
-        **{side: f"on the {side} side" for side in ("left", "right")},
-        **dict.fromkeys(("back", "behind"), "at the back"), **dict.fromkeys(("front", "forward"), "at the front")}  # fmt: skip
+_OFF = {
+    "left": "on the left side",
+    "right": "on the right side",
+    "back": "at the back",
+    "behind": "at the back",
+    "front": "at the front",
+    **dict.fromkeys(("slightly", "just", "a", "bit", "little", "and", "to", "the", "in"), ""),
+}
 """Words before "the center of", and on which side of it is what they are said of."""
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
@@ -35,7 +39,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
     the floor stands in the corner of a room.
     """
-    tokens = _whole(_other_places(_parts_again(_of_the_room(_off_centre(tokens, nouns), nouns), nouns)), nouns)
+    tokens = _whole(_other_places(_parts_again(_by_middles(tokens, nouns), nouns)), nouns)
     words = [token.text for token in tokens]
     told = _told(words, nouns)
     level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
@@ -63,29 +67,24 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return made
 
 
-def _of_the_room(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
-    """`tokens` with "a rug in the middle in front of the sofa" as "a rug in front of the sofa": no middle of a sofa."""
+def _by_middles(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "slightly left of the center of the desk" as "on the left side of the desk".
+
+    "A rug in the middle in front of the sofa" is in front of it: the middle is that of the room.
+    """
     words = [token.text for token in tokens]
-    for at in range(1, len(words) - 5):
-        after = at + 3 + (words[at + 3] == ",")
+    for at in (n for n in range(2, len(words) - 3) if words[n - 1] == "the" and words[n] in _MIDDLES):
+        after = at + 1 + (words[at + 1] == ",")
         beside = LINKS.get(tuple(words[after : after + link_at(tokens, after)]))
-        middle = words[at] in _NEAR and words[at + 1] == "the" and words[at + 2] in _MIDDLES
-        if middle and beside is not None and beside.kind in LATERAL_KINDS and not _small(words[:at], nouns):
-            return [*tokens[:at], *tokens[after:]]
-    return tokens
-
-
-def _off_centre(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
-    """`tokens` with "slightly left of the center of the desk" as "on the left side of the desk"."""
-    words = [token.text for token in tokens]
-    for at in range(3, len(words) - 3):
-        owner = at + 2 + (words[at + 2] in lexicon.DETERMINERS | lexicon.POSSESSIVES)
+        lateral = words[at - 2] in _NEAR and beside is not None and beside.kind in LATERAL_KINDS
+        if lateral and not _small(words[: at - 2], nouns):
+            return [*tokens[: at - 2], *tokens[after:]]
         start = at - 1 - (words[at - 2] in ("of", "from"))
         while start and words[start - 1] in _OFF:
             start -= 1
         side = next((_OFF[word] for word in words[start : at - 1] if _OFF.get(word)), "")
-        whole = words[at] in _MIDDLES and words[at - 1 : at + 2 : 2] == ["the", "of"]
-        if whole and side and _surface(words[owner : owner + 3], nouns):
+        owner = at + 2 + (words[at + 2] in lexicon.DETERMINERS | lexicon.POSSESSIVES)
+        if words[at + 1] == "of" and side and _surface(words[owner : owner + 3], nouns):
             place = [replace(tokens[start], text=word, end=tokens[at].end) for word in side.split()]
             return [*tokens[:start], *place, *tokens[at + 1 :]]
     return tokens

@@ -27,10 +27,9 @@ all of it = it
 near by = nearby
 off center/centre on/in/at = 2
 in the side of = at the side of
-a group/cluster/set/ensemble/combination containing/comprising/featuring =
-a group/cluster/set/ensemble/combination consisting/composed of =
-a group/cluster/set/ensemble/combination made up of =
-an arrangement comprising/containing/featuring =
+a group/cluster/set/combination containing/comprising =
+a group/cluster/set/combination consisting/composed of =
+a group/cluster/set/combination made up of =
 in side the = inside the
 get rid of = discard
 top up/off the/a/an/my/your = fill 2
@@ -114,7 +113,7 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
-_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "parchments", "manuscripts", "sheets", "paperwork"})
+_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "parchments", "manuscripts", "sheets"})
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
@@ -207,29 +206,23 @@ def _papers(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
     """`tokens` with "a stack of parchment", "a pile of white sheets" as "a stack of paper", "a white pile of paper"."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 4, -1, -1):
-        if not {words[at], *singulars(words[at])} & lexicon.STACK_NOUNS or words[at + 1] != "of":
-            continue
-        first = at + 2
-        head = next((n for n in range(first, min(first + 5, len(words))) if _is_paper(words, n, nouns)), 0)
-        between = words[first:head]
-        if not head or any(token.mark for token in tokens[first:head]) or {*between} & {*lexicon.LEADING, *FINITE, "and"}:
-            continue
-        looks = [
-            token for token in tokens[first:head]
-            if is_modifier(token.text) or not (token.text in _SHEETS | {"of"} or nouns.match([token.text]))
-        ]  # fmt: skip
-        pile = words[at] if nouns.match([words[at], "of", "paper"]) else "pile"
-        paper = replace(tokens[head], text="paper", start=tokens[first].start)
-        tokens = [*tokens[:at], *looks, replace(tokens[at], text=pile), tokens[at + 1], paper, *tokens[head + 1 :]]
+        stack = {words[at], *singulars(words[at])} & lexicon.STACK_NOUNS and words[at + 1] == "of"
+        head = next((n for n in range(at + 2, min(at + 7, len(words))) if stack and _is_paper(words, n, nouns)), 0)
+        if head and not {*words[at + 2 : head]} & {*lexicon.LEADING, *FINITE, "and", ","}:
+            said = [token for token in tokens[at + 2 : head] if token.text not in _SHEETS | {"of"}]
+            looks = [token for token in said if is_modifier(token.text) or not nouns.match([token.text])]
+            pile = words[at] if nouns.match([words[at], "of", "paper"]) else "pile"
+            paper = replace(tokens[head], text="paper", start=tokens[at + 2].start)
+            tokens = [*tokens[:at], *looks, replace(tokens[at], text=pile), tokens[at + 1], paper, *tokens[head + 1 :]]
     return tokens
 
 
 def _is_paper(words: Sequence[str], at: int, nouns: Nouns) -> bool:
-    """Whether the name at `at` ends there and is of sheets: "documents", but neither "paper plates" nor "toilet paper"."""
-    found, whole = nouns.match(words[at : at + 1]), nouns.match(words[at - 1 : at + 1])
-    sheets = words[at] in _SHEETS or (found is not None and found.noun == _PAPER)
-    other = whole is not None and whole.noun != _PAPER and words[at - 1] != "parchment"
-    return sheets and not other and words[at + 1] not in _SHEETS | {"of"} and nouns.match(words[at : at + 2]) is None
+    """Whether the name at `at` ends there and is of sheets: "documents", but no "paper plates", no "toilet paper"."""
+    spans = (words[at : at + 1], words[at - 1 : at + 1], words[at : at + 2])
+    own, before, after = ((found := nouns.match(each)) and found.noun for each in spans)
+    whole = before in (None, _PAPER) or words[at - 1] == "parchment"
+    return (own == _PAPER or words[at] in _SHEETS) and whole and not after and words[at + 1] != "of"
 
 
 def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
