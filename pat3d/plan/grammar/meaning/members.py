@@ -202,10 +202,6 @@ class Members(ByPlace):
                 # "A fork left of each plate and a knife right of each": of each plate.
                 subject = self.known[again[-1]]
             subject = list(plural[0].items) if plural else subject
-            several = [group for group in reversed(world.groups) if len(group.items) > 1 and not group.replaced]
-            if len(subject) == 1 == len(subject[0].group.items) and several:
-                # "A bench with three cans on it. Behind each lies a screw.": behind each can.
-                return list(several[0].items)
             return list(subject[0].group.items) if len(subject) == 1 else self._that_have(at, subject)
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
@@ -296,13 +292,6 @@ class Members(ByPlace):
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
-        told = {words.size_word, *words.adjectives} & (_LARGER | _SMALLER)
-        if told and not phrase.definite and phrase.closing == "one" and not words.colours:
-            named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-            first = named[0] if named else self._world.subject
-            if len(first) == 1 == len(first[0].group.items):
-                # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
-                return self._one_like(first, phrase)
         wanted = len(self._world.items()) if phrase.closing == "ones" else 1
         for shape in {*measured(words).adjectives} & SHAPES if phrase.definite else ():
             # "A tall vase and a short vase, the shorter one"
@@ -315,11 +304,6 @@ class Members(ByPlace):
             alike = next((kind for kind in (_LARGER, _SMALLER) if words.size_word in kind), frozenset[str]())
             if own := [item for item, size in sizes.items() if size in alike]:
                 return own[:wanted]
-            groups = [group for group in groups if len(group.items) > 1]
-            apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
-            if apart and len(apart) == len(groups):
-                # "The two smaller bowls inside the big one": another bowl.
-                return self._one_like(apart[0].items, phrase)
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:

@@ -337,9 +337,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if leads and follower in lexicon.DEFINITE | lexicon.POSSESSIVES and not _leads_on(tokens, at):
             # "Pass the hammer."
             token = replace(token, text="fetch")
-        if token.text == "sure" and before in ("make", "making") and follower != "to":
-            made[-1] = replace(made[-1], text="ensure", end=token.end)
-            continue
         made.append(token)
     return made
 

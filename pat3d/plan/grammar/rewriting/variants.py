@@ -113,7 +113,7 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
-_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "parchments", "manuscripts", "sheets"})
+_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "paperwork", "manuscripts", "sheets"})
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
