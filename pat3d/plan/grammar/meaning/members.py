@@ -304,6 +304,7 @@ class Members(ByPlace):
             alike = next((kind for kind in (_LARGER, _SMALLER) if words.size_word in kind), frozenset[str]())
             if own := [item for item, size in sizes.items() if size in alike]:
                 return own[:wanted]
+            groups = [group for group in groups if len(group.items) > 1]
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
