@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chunking.chunks import MAX_CHUNKS, Chunk, Sentence
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.qualities import Qualities
 from pat3d.plan.grammar.chunking.turned import turned
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import LINKS, LONGEST_LINK
@@ -47,7 +47,7 @@ _EMPTY = frozenset({
 """Words that mean nothing by themselves."""
 """Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
-_STANDING = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
+_STANDING = (*lexicon.FLOOR, *vessels.NOT_IN_VESSEL, "plant", "bin", "toolbox")
 
 
 class Cutter(Qualities):
@@ -379,7 +379,7 @@ class Cutter(Qualities):
         """Read "the dog's head": the part places nothing, its owner has been read."""
         read = self._phrases.read(self._at + 1)
         self._at += 1
-        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in lexicon.ON_RIMS)
+        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in vessels.ON_RIMS)
         if read is not None and part and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
                 self._made.unread.append(read[0].words or read[0].said)

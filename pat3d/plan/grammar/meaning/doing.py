@@ -20,7 +20,7 @@ from pat3d.plan.grammar.meaning.tiers import put_on_tier, tier_of
 from pat3d.plan.grammar.meaning.undone import turn_as_found, unstacks
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import SHUTTING, Clause
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -210,7 +210,7 @@ class Doing(Placing):
                 meant = "." if goes_on else '; with "the" before what is moved it is a task.'
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
             return
-        opened = parents and self._world.is_a(parents[0], tuple(lexicon.OPENED), lexicon.SHUT, lexicon.CLOSED)
+        opened = parents and self._world.is_a(parents[0], tuple(vessels.OPENED), vessels.SHUT, vessels.CLOSED)
         # "Return the pan to the stove": onto it.
         opened = opened and (self._world.houses(parents[0]) or not self._world.is_a(parents[0], ("stove",)))
         level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
@@ -347,10 +347,10 @@ class Doing(Placing):
     def _may_hold(self, holder: Item, items: Sequence[Item]) -> bool:
         """Whether `holder` is of what things are in, and `items`, which were not told of before, are nowhere yet."""
         world = self._world
-        holds = world.likely.hollow(world.noun(holder)) or world.is_a(holder, tuple(lexicon.OPENED), lexicon.CLOSED)
+        holds = world.likely.hollow(world.noun(holder)) or world.is_a(holder, tuple(vessels.OPENED), vessels.CLOSED)
         holds = holds or world.likely.closet(world.noun(holder))
         new = all(item.group not in self._said.before and item is not holder for item in items)
-        new = new and not any(world.is_a(item, lexicon.ON_RIMS, lexicon.FLOOR) for item in items)
+        new = new and not any(world.is_a(item, vessels.ON_RIMS, lexicon.FLOOR) for item in items)
         return holds and new and all(world.support(item) is None for item in items)
 
     def _step(self, children: list[Item], link: Link | None, parents: list[Item], part: str = "") -> None:

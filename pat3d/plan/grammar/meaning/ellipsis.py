@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.likes import likes_named, with_noun
 from pat3d.plan.grammar.meaning.ones import paralleled
 from pat3d.plan.grammar.meaning.parallels import told_alike
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -191,7 +191,7 @@ def _made_alike(one: Phrase, other: Phrase, nouns: Nouns) -> bool:
     named = [one.noun, other.noun]
     if any(nouns.of_class(noun, _SOFT) for noun in named):
         return False
-    table = (lexicon.HOLLOW, lexicon.DISHES, lexicon.BOWLS, lexicon.NARROW, lexicon.SLENDER)
+    table = (vessels.HOLLOW, lexicon.DISHES, vessels.BOWLS, vessels.NARROW, vessels.SLENDER)
     ware = all(any(nouns.of_class(noun, each) for each in table) for noun in named)
     return ware or all(nouns.of_class(noun, lexicon.FLOOR) for noun in named)
 

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.tiers import is_tier
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import Clause
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import INSIDE, Link
 
 _WALLS = frozenset({"wall", "walls", "ceiling"})
@@ -127,9 +127,9 @@ class Holding(Doing):
             return True
         told = [other for one, other in self._said.related if head in one]
         places = {self._chunks[each].named.head for other in told for each in other}
-        if self._world.is_a(owner, lexicon.SHELVES, lexicon.SHUT):
+        if self._world.is_a(owner, lexicon.SHELVES, vessels.SHUT):
             return False
-        stands = self._world.on_floor(owner) and not self._world.is_a(owner, lexicon.HOLLOW)
+        stands = self._world.on_floor(owner) and not self._world.is_a(owner, vessels.HOLLOW)
         return bool(places & _WALLS) or (stands and bool(places & {"floor", "ground"}))
 
     def _on_no_wall(self, items: list[Item]) -> list[Item]:

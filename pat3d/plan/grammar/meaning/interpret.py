@@ -16,7 +16,7 @@ from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position, ranked
 from pat3d.plan.grammar.meaning.objects import multiply, recount, tell_colours
 from pat3d.plan.grammar.parsing.chart import Node
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import ACROSS, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -292,12 +292,12 @@ class Interpreter(Holding):
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
         if loose and link.kind in SUPPORT_KINDS and all(child.group is group for child in children):
             # "Two pots with plants in them": as many for each; of what closes a pot one.
-            most = len(parents) if self._world.is_a(children[0], lexicon.ON_RIMS) else len(children)
+            most = len(parents) if self._world.is_a(children[0], vessels.ON_RIMS) else len(children)
             recount(self._world, group, -(-most // len(parents)) * len(parents))
             children = list(group.items)
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
-            children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
+            children = [item for item in children if self._world.is_a(item, vessels.NARROW)] or children
         children = self._on_no_wall(children) if link.kind == "on" and self._world.is_table(parents[0]) else children
         parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)

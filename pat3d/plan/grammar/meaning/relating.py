@@ -13,7 +13,7 @@ from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import DRAPED, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE, RELATION_WORDS, SUPPORT_KINDS, LateralKind
@@ -97,10 +97,10 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            off = link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",))
-            lid = off or world.is_a(children[0], lexicon.ON_RIMS)
-            shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
-            shut = shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))
+            off = link.said == "off" and not world.is_a(parents[0], vessels.RACKS, ("dish rack",))
+            lid = off or world.is_a(children[0], vessels.ON_RIMS)
+            shut = world.is_a(parents[0], vessels.SHUT) and (link.manner == "source" or link.kind == "in")
+            shut = shut or (link.kind == "in" and world.is_a(parents[0], vessels.CLOSED))
             housed = not (lid or off) and world.houses(parents[0]) and (shut or link.manner == "source")
             if not lid and shut and not housed:
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
@@ -175,7 +175,7 @@ class Relating:
             link.manner == "hold"
             and odd
             and not world.has_inside(owner)
-            and not world.is_a(children[0], lexicon.ON_RIMS)
+            and not world.is_a(children[0], vessels.ON_RIMS)
         ):
             # "A statue holding a cup"
             said = f'"{owner.group.words}" holding "{children[0].group.words}"'
@@ -185,7 +185,7 @@ class Relating:
             world.beside(children, "next_to", owners)
         elif weak and world.is_a(children[0], lexicon.SIDE_DISHES) and world.is_a(owner, lexicon.MAIN_DISHES):
             self.accompany(children, owners)
-        elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
+        elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, vessels.NARROW):
             world.place(owners, "on", children, weak=True)
         elif weak and (
             world.is_a(owner, lexicon.DEVICES)
@@ -193,9 +193,9 @@ class Relating:
         ):
             # "A reading chair with a lamp": beside it.
             self.accompany(children, owners)
-        elif world.is_a(owner, lexicon.RACKS):
+        elif world.is_a(owner, vessels.RACKS):
             world.place(children, "in", owners, weak=weak)
-        elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
+        elif link.kind == "on" or world.is_a(children[0], vessels.ON_RIMS):
             placed = world.supports.get(children[0])
             if link.said == "over":
                 world.over += _paired(children, owners)
@@ -208,7 +208,7 @@ class Relating:
             weak
             and world.is_a(children[0], lexicon.ON_HEAD)
             and not world.flat(owner)
-            and not world.is_a(owner, lexicon.HOLLOW)
+            and not world.is_a(owner, vessels.HOLLOW)
         ):
             world.place(children, "on", owners, weak=True)
         elif weak and world.on_floor(children[0]) and not world.is_a(children[0], lexicon.SEATS[-4:]):
@@ -219,7 +219,7 @@ class Relating:
                 self.accompany(children, owners)
         elif (
             not weak
-            or world.is_a(owner, lexicon.HOLLOW, tuple(lexicon.OPENED))
+            or world.is_a(owner, vessels.HOLLOW, tuple(vessels.OPENED))
             or world.flat(owner)
             or world.likely.on(world.noun(children[0]), world.noun(owner)) < 0.6
         ):
@@ -251,9 +251,9 @@ class Relating:
         if world.on_floor(child) or world.is_a(child, lexicon.BY_A_SEAT):
             return False
         if world.houses(owner):
-            return not world.is_a(child, lexicon.NOT_IN_VESSEL)
-        shut = lexicon.SHUT if weak else ()
-        return world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and owner.group.said != "stove"
+            return not world.is_a(child, vessels.NOT_IN_VESSEL)
+        shut = vessels.SHUT if weak else ()
+        return world.is_a(owner, vessels.CLOSED, shut, vessels.HOLDERS) and owner.group.said != "stove"
 
     def _settle(self, children: list[Item], parents: list[Item]) -> None:
         """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""
@@ -270,13 +270,13 @@ class Relating:
     def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str) -> None:
         world, kind = self.world, link.kind
         parent = parents[0]
-        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) and not world.houses(parent):
-            if world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
+        if kind == "in" and not world.is_a(parent, vessels.HOLLOW, tuple(vessels.OPENED)) and not world.houses(parent):
+            if world.is_a(parent, vessels.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
             elif world.on_floor(parent) or world.is_a(parent, lexicon.HOUSING):
                 kind = "on"
-                if world.is_a(parent, lexicon.SHUT):
+                if world.is_a(parent, vessels.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         elif kind == "on" and world.is_a(parent, lexicon.HOUSING):
             world.note(f"not arranged: {said.format('on')}; it is placed in it")
@@ -284,11 +284,11 @@ class Relating:
         self.cost += crowding(world, children, parent) if kind == "on" else 0.0
         if link.said == "over":
             world.over += _paired(children, parents)
-        lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
+        lies = world.is_a(children[0], lexicon.THIN, vessels.COVERS, vessels.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
         hung = world.is_a(parent, lexicon.HOOKED)
         if link.said in DRAPED and not hung:
             world.note(f"not arranged: {said.format(link.said)}; it is placed on it")
-        if link.said == "over" and not (lies or hung) and not world.is_a(parent, lexicon.RACKS, lexicon.HOLLOW):
+        if link.said == "over" and not (lies or hung) and not world.is_a(parent, vessels.RACKS, vessels.HOLLOW):
             world.note(f"not arranged: {said.format('over')}; it is placed on it")
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
@@ -301,7 +301,7 @@ class Relating:
                     f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or '
                     "name one."
                 )
-            over = link.said == "over" and world.is_a(children[0], lexicon.COVERS)
+            over = link.said == "over" and world.is_a(children[0], vessels.COVERS)
             if exact and len(world.bases(children)) == 1 and not over:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
@@ -309,7 +309,7 @@ class Relating:
                 like = world.is_a(children[0], lexicon.LONG) or world.noun(children[0]) == world.noun(parent)
                 world.arrange("across", children, tops, note, link.says == "across" or like)
                 self.cost += 0.3
-        elif link.says == "across" and world.is_a(parent, lexicon.HOLLOW):
+        elif link.says == "across" and world.is_a(parent, vessels.HOLLOW):
             note = f'"{children[0].group.words}" across "{parent.group.words}"; it is placed on it'
             world.arrange("across", children, parents, note, len(children) == len(parents) == 1)
         world.place(children, kind or "on", parents)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.parsing.judging import HEADLESS, Judging
-from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, ON_RIMS, SLENDER, WORN
+from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, WORN
 from pat3d.plan.grammar.words.links import Link
+from pat3d.plan.grammar.words.vessels import ON_RIMS, SLENDER
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _OF_BACKGROUND = 0.6

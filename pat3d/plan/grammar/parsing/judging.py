@@ -9,9 +9,10 @@ from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.lexicon import DEMONSTRATIVES, FIGURES, LEVEL, ON_RIMS, TELLING
+from pat3d.plan.grammar.words.lexicon import DEMONSTRATIVES, FIGURES, LEVEL, TELLING
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.sizes import too_large
+from pat3d.plan.grammar.words.vessels import ON_RIMS
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "leans", "has", "holds", "contains"})

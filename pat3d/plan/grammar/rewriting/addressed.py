@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import FILLERS, known_verb
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
@@ -26,7 +26,7 @@ _NOBODY = lexicon.GREETINGS | lexicon.BACKGROUND | lexicon.NUMBERS.keys() | FILL
     "outside", "inside", "indoors", "outdoors", "upstairs", "downstairs", "there", "here", "nearby", "task",
 }  # fmt: skip
 """First words before a comma that are not spoken to."""
-_CARRYING = (lexicon.FLOOR, lexicon.LEVEL, lexicon.HOLLOW, lexicon.DISHES)
+_CARRYING = (lexicon.FLOOR, lexicon.LEVEL, vessels.HOLLOW, lexicon.DISHES)
 _LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
 _LABELS = frozenset({"task", "instruction", "command", "request", "order", "goal", "objective", "step", "mission"})
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
