@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from typing import Literal
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.meaning.counting import multiply, recount
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.objects import multiply, recount
 from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
 from pat3d.plan.grammar.words import lexicon, vessels

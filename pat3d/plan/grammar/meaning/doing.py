@@ -11,9 +11,10 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.meaning.account import holds_already, learned
 from pat3d.plan.grammar.meaning.attached import beside_each_other, fits, has_room
 from pat3d.plan.grammar.meaning.contradictions import refuse_goal
+from pat3d.plan.grammar.meaning.counting import multiply
 from pat3d.plan.grammar.meaning.distribution import share
 from pat3d.plan.grammar.meaning.entities import Item, Step
-from pat3d.plan.grammar.meaning.objects import Maker, multiply
+from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.placing import Placing
 from pat3d.plan.grammar.meaning.same_colour import by_colour
 from pat3d.plan.grammar.meaning.tiers import put_on_tier, tier_of

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.meaning import arranging
+from pat3d.plan.grammar.meaning.counting import recount
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.objects import Maker, recount
+from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.references import References
 from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World

@@ -9,12 +9,12 @@ from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.meaning import apart
 from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
+from pat3d.plan.grammar.meaning.counting import multiply, recount, tell_colours
 from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position, ranked
-from pat3d.plan.grammar.meaning.objects import multiply, recount, tell_colours
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import ACROSS, Link

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.by_place import ByPlace
+from pat3d.plan.grammar.meaning.counting import recount, tell_colours
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.likes import SHAPES, measured
@@ -20,7 +21,6 @@ from pat3d.plan.grammar.meaning.matching import (
     position,
     same_noun,
 )
-from pat3d.plan.grammar.meaning.objects import recount, tell_colours
 from pat3d.plan.grammar.meaning.unlike import one_of_unlike
 from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, TONES

@@ -9,11 +9,11 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.plausible import LARGE, LEAFY
 from pat3d.plan.grammar.meaning.attached import has_room, put_carriers
+from pat3d.plan.grammar.meaning.counting import multiply
 from pat3d.plan.grammar.meaning.described import LEAVES, describe
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.forming import Forming
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES
-from pat3d.plan.grammar.meaning.objects import multiply
 from pat3d.plan.grammar.meaning.tiers import has_tiers
 from pat3d.plan.grammar.meaning.world import UNUSUAL
 from pat3d.plan.grammar.words import lexicon, vessels

@@ -9,9 +9,9 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
 from pat3d.plan.grammar.meaning.attached import bears, crowding, lids_beside, slip_under, with_its_carrier
+from pat3d.plan.grammar.meaning.counting import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
-from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import DRAPED, Link
