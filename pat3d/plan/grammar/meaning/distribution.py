@@ -13,7 +13,7 @@ from typing import Literal
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.counting import multiply, recount
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.relating import Relating
+from pat3d.plan.grammar.meaning.had import Having
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
 from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
@@ -114,7 +114,7 @@ def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> 
     return all_like(children)
 
 
-def hand_out(relating: Relating, link: Link, owners: Sequence[Item], children: Sequence[Item], how: Share) -> bool:
+def hand_out(relating: Having, link: Link, owners: Sequence[Item], children: Sequence[Item], how: Share) -> bool:
     """Relate `children`, had "together" or "in turn", to their `owners`; False where they are not had so."""
     world = relating.world
     if how == "together":

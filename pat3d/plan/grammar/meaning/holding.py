@@ -21,6 +21,9 @@ _BASINS = ("sink", "bathtub", "toilet")
 _ABOUT_BASINS = ("mirror", "hair dryer", "towel rack", "tile", "picture frame", "clock", "lamp", "plant",
                  "potted plant", "cabinet", "shelf", "scale", "light bulb", "painting")  # fmt: skip
 """What stands or hangs near a basin, and is never in it unless that is said."""
+_FINDING = frozenset({"open", "close", "shut", "go", "navigate", "walk", "touch", "reach", "avoid", "check", "inspect",
+    "ignore", "use", "give", "clear", "tidy", "serve", "turn", "rotate", "flip", "tilt"})  # fmt: skip
+"""Verbs after which "with" tells which thing is meant, and not what it is done with."""
 
 
 class Holding(Doing):
@@ -143,3 +146,18 @@ class Holding(Doing):
         """Whether `fact` has what something is with on both sides: "a nightstand with a lamp on each side of it"."""
         held = {head for other in facts if other[0] == "have" for head in other[3]}
         return fact[0] == "rel" and self._chunks[fact[1]].relation.manner == "sides" and held >= {*fact[2]}
+
+    def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
+        """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
+        if not all(head in self._said.bound for head in parent_heads):
+            return False
+        owners = [inner for head in parent_heads for inner in self._said.bound[head]]
+        links = [chunk.link for chunk in self._chunks[max(owners) : at]]
+        return any(link is not None and link.finite and link.inverse for link in links)
+
+    def _means(self, fact: tuple) -> bool:
+        """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""
+        doing = self._clause.manner == "other" and self._clause.verb not in _FINDING
+        link = self._chunks[fact[1]].relation if doing and fact[0] == "have" else None
+        things = all(self._chunks[head].named.kind == "object" for head in fact[3]) if link is not None else False
+        return link is not None and link.manner == "with" and link.kind is None and things

@@ -24,6 +24,8 @@ _CARRYING = 0.35
 """Cost of being on something below which that can carry it."""
 _HELD_BY_SUBJECT = 0.4
 """Cost of what a clause is about not being what is "holding" something at its end."""
+_HELD = 0.2
+"""Cost of holding something below which it is usual."""
 _HOLDING = ("holding", "containing", "carrying", "bearing")
 _HARDLY_IN = 1.0
 """Cost of being in something from which on that is not thought of."""
@@ -55,6 +57,11 @@ class Judging:
         phrases = (phrase for before in told if (phrase := self._chunks[before].phrase) is not None)
         named = {self._likely.fits(phrase) for phrase in phrases if phrase.kind == "object"}
         return named.pop() if len(named) == 1 else ""
+
+    def _both_places(self, outer: tuple[int, ...], nearer: tuple[int, ...]) -> float:
+        """Cost of `outer` not being beside `nearer`, which may stand on it."""
+        holds = min(self._likely.having(Link(manner="with"), self._noun(outer[0]), self._noun(head)) for head in nearer)
+        return 0.05 if holds < _HELD else 0.25
 
     def _again(self, head: int, facts: tuple[tuple, ...]) -> float:
         """The cost of a second support for what has one."""
