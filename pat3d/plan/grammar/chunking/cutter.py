@@ -105,9 +105,6 @@ class Cutter(Qualities):
         for key in _JOINED:
             if self._words(len(key)) == key:
                 return self._joined(key)
-        if word in lexicon.MODALS and follower == "be":
-            self._at += 1
-            return None
         if self._relation():
             return None
         of_each = follower == "of" and self._last is not None and self._last.kind == "rel"
@@ -150,9 +147,6 @@ class Cutter(Qualities):
             and not (word != "each" and (follower == "of" or self._tokens[self._at + 1].mark))
         ):
             return self._add("noun", phrase=Phrase(kind="pieces", head=word, words=word, number=token.number))
-        if word in ("do", "does") and (follower == "too" or self._words(3)[1:] == ("as", "well")):
-            self._at += 1
-            return None
         if word in ("too", "also") or self._words(2) == ("as", "well"):
             return self._too(1 if word != "as" else 2)
         relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]

@@ -380,8 +380,6 @@ class PhraseReader:
             if compound:
                 return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
-            if portion and not holds and inner.kind == "pieces":
-                return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
                 amount = inner.count if count is None and plural else count
                 # "Two slices of pizza" are two whole ones.

@@ -191,8 +191,6 @@ class Doing(Everything):
                 apiece = share(self._world, link, parents, children, all_of=of_all, having=False) == "each"
                 if self._said.speaks_of_each(parent_heads) or (of_all and apiece and link.kind in SUPPORT_KINDS):
                     children = multiply(self._world, children, len(parents))
-                if self._clause.verb == "hang" and link.kind == "on":
-                    link = Link(kind="hangs_from")
                 if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
                     link = Link(kind="next_to", says="leaning_against")
                 if len(parent_heads) != 1 or not self._on_tier(children, parent_heads[0], parents):

@@ -89,8 +89,6 @@ class Forming:
             world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
         elif chunk.text == "circle":
             world.arrange("circle", items, self._ringed(items), f'"{groups[0].words}" in a circle')
-        elif chunk.text == "facing":
-            world.arrange("facing", items, (), f'"{groups[0].words}" facing each other')
         elif chunk.text == "beside":
             for left, right in zip(items, items[1:], strict=False):
                 world.beside([right], "next_to", [left])

@@ -49,14 +49,9 @@ class Having(Relating):
         elif world.is_a(owner, vessels.RACKS):
             world.place(children, "in", owners, weak=weak)
         elif link.kind == "on" or world.is_a(children[0], vessels.ON_RIMS):
-            placed = world.supports.get(children[0])
             if link.said == "over":
                 world.over += paired(children, owners)
-            if link.said == "over" and placed is not None:
-                # "An egg is covered by a bowl on a tray"
-                world.place(owners, placed.kind, [placed.parent])
-            else:
-                world.place(children, "on", owners, weak=weak)
+            world.place(children, "on", owners, weak=weak)
         elif (
             weak
             and world.is_a(children[0], lexicon.ON_HEAD)

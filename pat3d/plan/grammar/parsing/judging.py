@@ -12,7 +12,6 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexicon import DEMONSTRATIVES, FIGURES, LEVEL, TELLING
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.sizes import too_large
-from pat3d.plan.grammar.words.vessels import ON_RIMS
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _OF_ONE = frozenset({"is", "was", "sits", "stands", "lies", "rests", "hangs", "leans", "has", "holds", "contains"})
@@ -181,9 +180,6 @@ class Judging:
         if within and not self._likely.hollow(self._noun(modifier.heads[0])) and self._may_hold(owner, within):
             # "A jar on a shelf with a nut in it"
             return 0.5
-        if not owner and any(self._likely.is_a(self._noun(fact[2][0]), ON_RIMS) for fact in carried):
-            # "Another one on a shelf with a lid on it"
-            return 0.7
         return 0.5 if cost < _NATURAL else 0.4 if cost < _CARRYING else 0.0
 
     def _holds_itself(self, named: Node, modifier: Node) -> float:

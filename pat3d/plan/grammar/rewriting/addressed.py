@@ -96,7 +96,7 @@ def _endeared(tokens: Sequence[Token], nouns: Nouns) -> bool:
 def _without_name(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` without "hey robot," in front of what it is to do, and without ", robot" behind it."""
     words = [token.text for token in tokens]
-    at = _greeted(words, 0)
+    at = _greeted(words)
     named = at + (words[at] in _TOLD)
     end = named + (words[named] in (",", ":") and named > 0)
     if end and words[end] == ".":
@@ -116,8 +116,9 @@ def _without_name_behind(tokens: Sequence[Token]) -> list[Token]:
     return [*tokens[:-3], tokens[-1]] if behind else list(tokens)
 
 
-def _greeted(words: Sequence[str], at: int) -> int:
-    """The word after "okay, hey" at word `at`."""
+def _greeted(words: Sequence[str]) -> int:
+    """The word after "okay, hey" that `words` begin with."""
+    at = 0
     while words[at] in lexicon.GREETINGS:
         at += 1 + (words[at + 1] == "," and words[at + 2] in lexicon.GREETINGS | _TOLD)
     return at
