@@ -155,16 +155,12 @@ def which_bears(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _one_upon(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "two cubes, one on the other" as "one on top of the other", "one leaning" as "one of them"."""
+    """`tokens` with "two planks, one leaning against the other" as "one of them leaning against the other"."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 4):
         if words[max(at - 1, 0) : at + 1] == [",", "one"] and words[at + 1] == "leaning" and words[at + 4] == "other":
             of, them, against = (replace(tokens[at + 2], text=word) for word in ("of", "them", "against"))
             return [*tokens[: at + 1], of, them, tokens[at + 1], against, *tokens[at + 3 :]]
-        upon = words[at : at + 4] == ["one", "on", "the", "other"] and tokens[at + 4].mark
-        if upon and "side" not in words[:at] and words[max(at - 1, 0)] != "on":
-            on = tokens[at + 1]
-            return [*tokens[: at + 2], replace(on, text="top"), replace(on, text="of"), *tokens[at + 2 :]]
     return list(tokens)
 
 

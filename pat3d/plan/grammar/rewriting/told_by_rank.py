@@ -66,10 +66,9 @@ def _front_and_back(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "one in front of the other" as "one behind the other"."""
     words = [token.text for token in tokens]
     at = next((n for n in range(len(words)) if words[n : n + 6] == _BEFORE), -1)
-    made = list(tokens)
-    if at >= 0:
-        made[at + 1 : at + 4] = [replace(tokens[at + 1], text="behind", end=tokens[at + 3].end)]
-    return made
+    if at < 0:
+        return list(tokens)
+    return [*tokens[: at + 1], replace(tokens[at + 1], text="behind", end=tokens[at + 3].end), *tokens[at + 4 :]]
 
 
 def _another_holds(tokens: Sequence[Token]) -> list[Token]:
