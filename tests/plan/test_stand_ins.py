@@ -223,3 +223,12 @@ def test_a_thing_is_none_of_the_kind_that_its_last_word_names(said, noun):
 )
 def test_a_name_takes_no_word_from_another(prompt, nouns):
     assert sorted(obj.noun for obj in PLANNER.plan(prompt).objects) == nouns
+
+
+@pytest.mark.parametrize(
+    "said", ["half-burnt", "handmade", "hollow", "solid", "old-fashioned", "brand-new", "oven-proof"]
+)
+def test_an_adjective_set_off_behind_its_noun_is_noted(said):
+    plan = PLANNER.plan(f"A book and a candle, {said}, are on a table.")
+    assert sorted(obj.noun for obj in plan.objects) == ["book", "candle", "table"]
+    assert f'not modelled: "{said}"' in plan.notes
