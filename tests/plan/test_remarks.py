@@ -39,8 +39,8 @@ def test_what_no_scene_has_is_left_out_and_named(sentence, objects, relations, n
     ("sentence", "fault"),
     [
         ("A box of tissues is lying on the dashboard.", '"dashboard"'),
-        ("A mug is on a table. Next to the mug is a harp.", '"harp"'),
-        ("A chair, its back to a desk, with a kilt over it.", '"kilt"'),
+        ("A mug is on a table. Next to the mug is a bagpipe.", '"bagpipe"'),
+        ("A chair, its back to a desk, with a bagpipe over it.", '"bagpipe"'),
         ("A plate of broccoli, polenta and pasta.", '"polenta"'),
         ("A dial lies on a table.", '"dial"'),
         ("A lemon rolls off the table.", '"rolls"'),
