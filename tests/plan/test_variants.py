@@ -73,7 +73,7 @@ def test_both_give_one_scene(planner: GrammarPlanner, sentence: str, same: str):
     [
         ("Swap the positions of the jar and the mug.", "Swap the positions of the jar and the mug"),
         ("Have the jar and the mug trade places.", "Have the jar and the mug trade places"),
-        ("Push and close the fridge.", "Push and close the fridge"),
+        ("Push and close the oven.", "Push and close the oven"),
         ("Put the bolts in the jar and do not touch anything else.", "do not touch anything else"),
         ("A cut in half lemon lies on a plate.", "cut-in-half"),
         ("Three mugs stand on the tray at random locations.", "at random locations"),
