@@ -98,7 +98,8 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     if len(specs) < STEPS[0]:
         return (specs[0] if specs else None), notes
     if (chain := chain_of(specs)) is None and (shorter := _unclosed(specs)) != specs:
-        notes.append(f'not modelled: {", ".join(specs[len(shorter):])}: nothing is closed after something is picked up.')
+        last = ", ".join(specs[len(shorter) :])
+        notes.append(f"not modelled: {last}: nothing is closed after something is picked up.")
         return shorter[0] if len(shorter) < STEPS[0] else chain_of(shorter), notes
     if chain is None:
         listed = ", ".join(specs)
