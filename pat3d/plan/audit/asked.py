@@ -11,7 +11,8 @@ _MOVING = frozenset({"take", "bring", "carry", "move", "deliver", "transfer", "r
 _PUTTING = frozenset({"put", "place", "move", "set", "lay", "insert", "drop", "stack", "pick"})
 _REACH = 12
 """Words from what is taken to where it is taken."""
-_SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave"})
+_SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave", "toaster", "dryer",
+                   "fryer", "cooker"})  # fmt: skip
 _DEPTHS = frozenset({"bottom", "back", "rear", "front", "far"})
 _GOALS = frozenset({"of", "to", "into", "onto", "in", "on"})
 _FURTHER = frozenset({"another", "more", "further", "third", "fourth", "extra", "second", "other", "new", "else"})

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.plan.grammar.rewriting.errands import left_alone
 from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back, together
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.number_words import ORDINALS, numeral
 from pat3d.plan.grammar.words.unmade import base_verb
 
 _GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
@@ -36,7 +38,7 @@ SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors",
 _HANDING = (["give"], ["hand"], ["pass"])
 _SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
 _PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
-_BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect"})
+_BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect", "assemble"})
 _UNTOLD = frozenset({"pyramid", "wall", "bridge", "arch", "staircase", "house", "castle", "fort"})
 """What is built in no task."""
 _FORMS = frozenset({"tower", "stack", "pile", "column", "row", "line", "circle", "ring"}) | _UNTOLD
@@ -174,33 +176,64 @@ def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _built(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "build a tower out of the three cubes" as "stack the three cubes", and a row as "arrange ...".
+    """`tokens` with "build a tower of three cubes" as "stack the three cubes", and a row of the cubes as "arrange ...".
 
-    "Build a tower of three cubes" makes them up, and of "build a pyramid from these six cups" none is built before.
+    "Build a row of three cubes" makes them up, and of "build a pyramid from these six cups" none is built before.
     """
     words = [token.text for token in tokens]
     for at in range(len(words) - 5):
-        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "to")
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "to", "you")
         form = at + 2 + (words[at + 1] == "a" and words[at + 2] not in _FORMS)
         if not led or words[at] not in _BUILDING or words[at + 1] != "a" or words[form] not in _FORMS:
             continue
         size = next((len(said) for said in _MADE_OF if tuple(words[form + 1 : form + 1 + len(said)]) == said), 0)
         things = form + 1 + size
-        goes_on = any(
-            words[n] == "then" or (words[n] == "and" and base_verb(words[n + 1]) == words[n + 1])
-            for n in range(things, len(words) - 1)
-        )
+        piled, untold = words[form] in lexicon.TOWERS, words[form] in _UNTOLD
+        later = (n for n in range(things, len(words) - 1) if words[n] == "then" or (
+            words[n] == "and" and base_verb(words[n + 1]) == words[n + 1]))  # fmt: skip
+        goes_on = next(later, len(words))
+        goes_on = goes_on < len(words) and (not piled or bool({"it", "them", "top", "one"} & {*words[goes_on:]}))
+        end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
+        first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
+        if size and piled and (turns := _by_turns(tokens[:at], tokens[at], tokens[things:end])):
+            return [*turns, *tokens[end:]]
+        stop = next((n for n in range(things, first) if words[n] in (",", "and", "then", "with", "each")), first)
+        placed = words[stop] in (".", ",", "and", "then") or words[stop + link_at(tokens, stop)] in _THERE
+        placed = placed and piled and not _FORMS & {*words[stop:]}
+        if size and placed and not goes_on and singulars(words[stop - 1]) and words[things] not in _THERE:
+            tokens = [*tokens[:things], replace(tokens[things], text="the"), *tokens[things:]]
+            return _built(tokens)
         if not size or words[things] not in _THERE or goes_on:
             # "Make a tower of the red and the blue brick and place the green one on it": that one is to be placed.
             continue
-        end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
-        first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
-        piled, untold = words[form] in lexicon.TOWERS, words[form] in _UNTOLD
         verb = "assemble" if untold else "stack" if piled else "arrange"
         deed = replace(tokens[at], text=verb, end=tokens[form].end)
         how = [] if piled or untold else [replace(tokens[form], text=word) for word in ("in", "a", words[form])]
         return [*tokens[:at], deed, *tokens[things:first], *how, *tokens[first:]]
     return tokens
+
+
+def _by_turns(before: Sequence[Token], verb: Token, things: Sequence[Token]) -> list[Token]:
+    """The deeds by which "4 alternating red and white cubes, red at the bottom" come to be a tower, behind `before`."""
+    words = [token.text for token in things]
+    at = words.index("alternating") if "alternating" in words else len(words)
+    if at > 1 or words[at + 2 : at + 3] != ["and"] or not singulars("".join(words[at + 4 : at + 5])):
+        return []
+    colours, rest = [things[at + 1], things[at + 3]], words[at + 5 :]
+    count = next((numeral(word) for word in words[:at]), 0) or 4
+    if count > 2 * len(ORDINALS):
+        return []
+    highest = {"top", "above"} & {*rest}
+    lowest = next((n for n, colour in enumerate(colours) if colour.text in rest), 0)
+    lowest = (lowest + count - 1) % 2 if highest else lowest
+    name = replace(things[at + 4], text=next(iter(singulars(words[at + 4]))))
+    made = list[list[Token]]()
+    for n in range(count):
+        rank = [replace(name, text=ORDINALS[n // 2])] if n // 2 or count > n + 2 else []
+        made.append([replace(name, text="the"), *rank, colours[(n + lowest) % 2], name])
+    stack, on, joint = (replace(verb, text=word) for word in ("stack", "on", "and"))
+    deeds = [[joint, stack, *upper, on, *lower] for lower, upper in pairwise(made)]
+    return [*before, *[token for deed in deeds for token in deed][1:]]
 
 
 def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
