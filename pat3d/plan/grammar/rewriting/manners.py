@@ -35,6 +35,14 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     rf"(?<!the )(?<!its )(?:{'|'.join(sorted(lexicon.PARTS))})(?:[ -](?:side|end))?[ -]first",
     r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random"
     r"|straight (?:up|down))",
+    # "socks in it, mostly grey", "a drawer, half open, with a pen in it", "four forks around a cake, one on each side"
+    r"[,-] (?:mostly|mainly|largely|predominantly) \S+(?= [,.] )",
+    r", (?:half|partly|partially|slightly|fully|nearly|almost) (?:open|closed|shut|full|empty) ,(?= with )",
+    r", one (?:on|at|to) each (?:side|end|corner)(?: of it)?(?= [,.] )",
+    # "fill the cup three quarters with water", "the cup half full with milk", "the books on the shelf, tallest left"
+    r"(?<=\S )(?:(?:a|one|two|three) (?:quarters?|thirds?|half)|half ?way|to the (?:brim|rim|top))(?= (?:full|with) )",
+    r", (?:largest|smallest|biggest|tallest|shortest|longest|heaviest) (?:first|(?:on|at) the (?:left|right|front|back))"
+    r"(?= [,.] )",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
     r"\S+ than (?:either|both|all)",
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",

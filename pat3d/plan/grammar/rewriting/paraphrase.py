@@ -39,7 +39,7 @@ from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
 from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_surface, stood_where
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, postures
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexicon import STANDING
@@ -135,6 +135,10 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
     for at in range(1, len(words) - 4):
         if words[at : at + 2] != ["and", ","]:
             continue
+        if postures.is_posture(words[at + 2]) and words[at + 3] == ",":
+            # "and, upside down, a glass on a tray"
+            end = next(n for n in range(at + 4, len(tokens)) if tokens[n].mark or link_at(tokens, n))
+            return [*tokens[: at + 1], *tokens[at + 4 : end], tokens[at + 2], *tokens[end:]]
         size = link_at(tokens, at + 2)
         side = next((n for n in range(6, 1, -1) if tuple(words[at + 2 : at + 2 + n]) in SIDES), 0)
         side *= words[at + 2 + side] == ","

@@ -7,6 +7,7 @@ from functools import partial
 
 from pat3d.plan.grammar.rewriting.acting import asked_of_the_robot
 from pat3d.plan.grammar.rewriting.amounts import worked_out
+from pat3d.plan.grammar.rewriting.beforehand import several_told_by_rank
 from pat3d.plan.grammar.rewriting.carried_clauses import of_the_carried
 from pat3d.plan.grammar.rewriting.compounds import compounds
 from pat3d.plan.grammar.rewriting.drinks import of_drinks
@@ -44,7 +45,7 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
         without_names_of_verbs, partial(steps, text), partial(ordinals, text), compounds, blocks_of_colours,
         members_set_off, partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot,
         of_the_counted, told_behind, of_drinks, known_again, in_full, served, worked_out, subkinds, by_side, by_size,
-        of_the_carried, by_rank, at_row_ends, of_unlike_rows, levels_of,
+        of_the_carried, several_told_by_rank, by_rank, at_row_ends, of_unlike_rows, levels_of,
     )  # fmt: skip
     tokens = chessmen(tokens)
     for rewrite in rewritings:

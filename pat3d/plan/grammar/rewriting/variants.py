@@ -109,6 +109,7 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
+_VARIED = frozenset({"different", "various", "varying", "assorted", "mixed"})
 _BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
 _IN_TURN = 12
 """Things in a row that take turns, at most."""
@@ -121,7 +122,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _plain(_alike(_hued(_begun(tokens)), nouns))
+    usual = _many_coloured(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns)
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
@@ -182,6 +183,21 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         made.append(tokens[at])
         at += 1
     return made
+
+
+def _many_coloured(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "pens of different colours" as "different coloured pens"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 3):
+        listed = words[at + 2] not in ("colors", "colours") or words[at + 3] in ("(", ":")
+        if words[at] != "of" or words[at + 1] not in _VARIED or listed:
+            continue
+        name = next((n for n in (3, 2, 1) if n <= at and (found := nouns.match(words[at - n : at])) and found.plural), 0)
+        first = tokens[at - name]
+        look = [replace(first, text=word, end=first.start) for word in ("different", "colored")]
+        named = [*tokens[at - name : at - 1], replace(tokens[at - 1], end=tokens[at + 2].end)]
+        return [*tokens[: at - name], *look, *named, *tokens[at + 3 :]] if name else tokens
+    return tokens
 
 
 def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
