@@ -28,6 +28,7 @@ _SWAPPING = frozenset({"swap", "exchange", "trade", "switch"})
 _TO = frozenset({"with", "into", "onto", "to"})
 _AGAIN = ("do", "the", "same")
 _FROM_AN_END = (("from", "the", "left"), ("from", "the", "right"))
+_ARRANGED = lexicon.STACK_NOUNS | lexicon.ROWS | {"top", "bottom"}
 _STATES = {"open": "open", "opened": "open", "closed": "closed", "shut": "closed", "empty": "empty"}
 _TOPS = (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES, lexicon.THIN)
 _CLEANING = frozenset({"wipe", "clean", "scrub", "sweep", "polish", "vacuum", "mop"})
@@ -54,6 +55,7 @@ def several_told_by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         many = plural(words[name - 1])
         others = {words[name - 1], many, "one", "ones"} & {*words[:at], *words[name:]}
+        others |= _ARRANGED & {*words[start:]}
         if others or not any(map(known_verb, words[start : start + 2])):
             continue
         number = {2: "several", 3: "several", 4: "many"}.get(rank, "some")
@@ -65,7 +67,7 @@ def several_told_by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _as_it_is(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
-    """Tell "with the lid open and a pen in the box, close the lid" as "the lid is open", "a pen is in the box" and that."""
+    """Tell "with a pen in the box, close the box" as "a pen is in the box", "close the box"; so of what is open."""
     words = [token.text for token in sentence]
     comma = next((n for n in range(3, len(words) - 2) if words[n] == "," and known_verb(words[n + 1])), 0)
     made, rest = list[list[Token]](), list(sentence[1:comma])

@@ -51,8 +51,8 @@ def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str]
 def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "in the first, a fig; in the second, a pen" as "in the first box is a fig; in the second ..."."""
     words, found = [token.text for token in tokens], list[tuple[int, int]]()
-    behind = [n + 2 for n in range(2, len(words) - 3) if words[n] in ("in", "on") and words[n + 1] == "the"
-              and words[n + 2] in ORDINALS and words[n + 3] in (",", ".", ";", "and") and not tokens[n - 1].mark]  # fmt: skip
+    ends = (n for n in range(4, len(words) - 1) if words[n] in ORDINALS and words[n + 1] in (",", ".", ";", "and"))
+    behind = [n for n in ends if words[n - 1] == "the" and words[n - 2] in ("in", "on") and not tokens[n - 3].mark]
     stop = next((n for n in range(behind[0] - 2, 0, -1) if tokens[n].mark), 0) if len(behind) > 1 else 0
     last = counted_in(words, stop, nouns) if stop else None
     for at in reversed(behind if last is not None else ()):

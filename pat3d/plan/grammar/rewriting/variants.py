@@ -192,7 +192,9 @@ def _many_coloured(tokens: list[Token], nouns: Nouns) -> list[Token]:
         listed = words[at + 2] not in ("colors", "colours") or words[at + 3] in ("(", ":")
         if words[at] != "of" or words[at + 1] not in _VARIED or listed:
             continue
-        name = next((n for n in (3, 2, 1) if n <= at and (found := nouns.match(words[at - n : at])) and found.plural), 0)
+        name = next(
+            (n for n in (3, 2, 1) if n <= at and (found := nouns.match(words[at - n : at])) and found.plural), 0
+        )
         first = tokens[at - name]
         look = [replace(first, text=word, end=first.start) for word in ("different", "colored")]
         named = [*tokens[at - name : at - 1], replace(tokens[at - 1], end=tokens[at + 2].end)]
