@@ -10,7 +10,8 @@ from dataclasses import replace
 from itertools import pairwise
 
 from pat3d.plan.grammar.rewriting.errands import left_alone
-from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back, together
+from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back
+from pat3d.plan.grammar.rewriting.wordings import LEAD, reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -18,7 +19,6 @@ from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.number_words import ORDINALS, numeral
 from pat3d.plan.grammar.words.unmade import base_verb
 
-_GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
 _FINDING = frozenset({"find", "locate", "choose", "select", "get", "retrieve", "identify", "collect"})
@@ -35,9 +35,6 @@ _THEN = frozenset({"then", "next", "now", "and", "finally", ",", "please", "also
 _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck", "set"})
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
 SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
-_HANDING = (["give"], ["hand"], ["pass"])
-_SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
-_PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
 _BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect", "assemble"})
 _UNTOLD = frozenset({"pyramid", "wall", "bridge", "arch", "staircase", "house", "castle", "fort"})
 """What is built in no task."""
@@ -46,11 +43,24 @@ _MADE_OF = (("of",), ("out", "of"), ("from",), ("with",), ("using",), ("by", "st
 _THERE = lexicon.DEFINITE | lexicon.POSSESSIVES | {"them", "all", "both"}
 """What speaks of things that are there."""
 _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "operator"}
+_SWAP = r"(?:swap|trade|switch|exchange|interchange) "
+_PLACES = r"(?:[^ ]+ ){0,2}(?:place|position|location|spot)s? "
+_WORDINGS = wordings((
+    (r"(?<!a )(?<!the )(line )((?:(?!(?:up|on|in|to|of|with|from|next|at|by) )[^ .,:;]+ )+)up ", r"\1 up \2"),
+    # "Swap the positions of the cup and the can", "have the cup and the can trade places"
+    (rf"({_SWAP}){_PLACES}(?:of|between) ", r"\1"),
+    (rf"(?<!. )(?:have |let |make )?([^.,]* and [^.,]*?){_SWAP}{_PLACES}(?=[.,])", r"swap \1"),
+    # Of two that are parted neither is on the other.
+    (rf"(?<!. )((?:separate|part|distinguish) {LEAD}[^.,:;]*?)from (?={LEAD})", r"\1 and"),
+    (rf"(?:give|hand|pass) the (?:{'|'.join(_RECEIVERS)}) (?={LEAD})", "fetch"),
+    (r"(?:hand|give|bring|pass|fetch|get) (?:me|us) ", "fetch"),
+    (r"give ((?:[^ ]+ )*?)to (?:me|us) ", r"fetch \1"),
+))  # fmt: skip
 
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _parted(_swapped(put_back(together(closed(_in_full(_idioms(tokens)))))))
+    told = reworded(put_back(closed(_in_full(_idioms(tokens)))), _WORDINGS)
     return _handed(_fronted(_place_first(_ordered(_told_once(_lined_up(_built(told)))))))
 
 
@@ -127,34 +137,6 @@ def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
         base = base_verb(words[at]) if at == verb or words[at - 1] in ("and", ",", "then") else None
         made.append(replace(tokens[at], text=base) if base and words[at].endswith("ing") else tokens[at])
     return made
-
-
-def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "swap the positions of the cup and the can" as "swap the cup and the can", "trade places" too."""
-    words = [token.text for token in tokens]
-    verb = next((at for at, word in enumerate(words[:-2]) if word in _SWAPPING), None)
-    if verb is None:
-        return tokens
-    place = next((at for at in range(verb + 1, min(verb + 4, len(words))) if words[at] in _PLACES), 0)
-    if place and words[place + 1] in ("of", "between"):
-        return [*tokens[: verb + 1], *tokens[place + 2 :]]
-    if place and tokens[place + 1].mark and verb > 2 and "and" in words[:verb]:
-        # "Have the cup and the can trade places."
-        first = 1 if words[0] in ("have", "let", "make") else 0
-        asked = replace(tokens[verb], start=tokens[0].start, end=tokens[0].end)
-        last = replace(tokens[verb - 1], end=tokens[place].end)
-        return [asked, *tokens[first : verb - 1], last, *tokens[place + 1 :]]
-    return tokens
-
-
-def _parted(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "separate the cup from the bowl" as "separate the cup and the bowl": neither is on the other."""
-    words = [token.text for token in tokens]
-    led = words[0] in ("separate", "part", "distinguish") and words[1] in lexicon.DETERMINERS
-    at = next((n for n in range(2, len(words) - 2) if tokens[n].mark or words[n] == "from"), 0) if led else 0
-    if not at or words[at] != "from" or words[at + 1] not in lexicon.DETERMINERS:
-        return tokens
-    return [*tokens[:at], replace(tokens[at], text="and"), *tokens[at + 1 :]]
 
 
 def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -323,10 +305,9 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _handed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "hand me the cup" as "fetch the cup", and "make sure" as "ensure"."""
+    """`tokens` with "hand over the cup" as "fetch the cup", and "make sure" as "ensure"."""
     made: list[Token] = []
     told = {token.text for token in tokens}
-    given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
         if token.text == "first" and before == ":" and follower in lexicon.DETERMINERS:
@@ -343,12 +324,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
             (token.text == "by" and follower in SORTS) or (token.text in SORTS and tokens[at - 1].text == "by")
         ):
             continue
-        given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING
-        if given_to and follower in lexicon.DETERMINERS:
-            # "Give the robot the cup"
-            made.pop()
-            made[-1] = replace(made[-1], text="fetch")
-            continue
         led = follower in lexicon.DEFINITE | lexicon.POSSESSIVES
         if token.text == "over" and before in ("hand", "pass") and led and not _leads_on(tokens, at):
             # "Hand over the hammer."
@@ -358,14 +333,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if gathers and led and not {"in", "into", "on", "onto", "to"} & told:
             # "Collect the coins from under the bench": nothing is said of where they go.
             token = replace(token, text="gather")
-        if token.text in ("me", "us") and before in _GIVING:
-            made[-1] = replace(made[-1], text="fetch")
-            continue
-        if token.text in ("me", "us") and before == "to" and given is not None and given < len(made):
-            # "Give the cup to me"
-            made[given] = replace(made[given], text="fetch")
-            made.pop()
-            continue
         leads = token.text in ("pass", "hand") and (not at or tokens[at - 1].mark or before in _THEN)
         if leads and follower in lexicon.DEFINITE | lexicon.POSSESSIVES and not _leads_on(tokens, at):
             # "Pass the hammer."

@@ -39,6 +39,8 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"[,-] (?:mostly|mainly|largely|predominantly) (?!\S+s )\S+(?= [.] )",
     r", (?:half|partly|partially|slightly|fully|nearly|almost) (?:open|closed|shut|full|empty) ,(?= with )",
     r", one (?:on|at|to) each (?:side|end|corner)(?: of it)?(?= [,.] )",
+    # "insert the peg into the square hole of the board"
+    r"(?<=into )the (?:[a-z-]+ )?(?:hole|notch|groove|recess|socket) (?:of|in|on)(?= the )",
     # "fill the cup three quarters with water", "the cup half full with milk", "the books on the shelf, tallest left"
     r"(?<=\S )(?:(?:a|one|two|three) (?:quarters?|thirds?|half)|half ?way|to the (?:brim|rim|top))(?= (?:full|with) )",
     r", (?:larg|small|bigg|tall|short|long)est (?:first|(?:on|at) the (?:left|right|front|back))(?= [,.] )",
@@ -182,7 +184,9 @@ def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     said = "".join(f"{word.replace(' ', '_')} " for word in words)
     for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
         at, end = (said.count(" ", 0, place) for place in found.span())
-        ends = end < len(tokens) and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end))
+        ends = end < len(tokens) and (
+            tokens[end].mark or words[end] in JOINERS | FINITE | {"the"} or link_at(tokens, end)
+        )
         # "The appliance used for heating food": which one is told by it.
         told = words[at - 1] in _KINDS and "for" in words[at + 1 : at + 4]
         # "A radio and two mugs, one on each side": told of a scene, it is where they are.

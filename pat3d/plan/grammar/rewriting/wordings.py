@@ -14,6 +14,10 @@ NUMBER = rf"(?:{'|'.join(word for word, value in lexicon.NUMBERS.items() if 1 < 
 NAME = r"(?:(?!(?:and|then|from|with|to|of|in|on|into|onto|is|are) )[^ .,:;]+ )+?"
 """Words without a mark or a place among them."""
 
+LEAD = rf"(?:{'|'.join(lexicon.DETERMINERS)}) "
+_TIMES = 3
+"""How often one wording may stand in what is said."""
+
 Wording = tuple[re.Pattern[str], tuple[str, ...]]
 """What is said, word by word with a blank behind each, and what is read: words, and numbers of groups."""
 
@@ -24,49 +28,52 @@ def wordings(said: Iterable[tuple[str, str]]) -> tuple[Wording, ...]:
 
 
 def reworded(tokens: Sequence[Token], known: Iterable[Wording]) -> list[Token]:
-    """`tokens` with what each of the wordings that are `known` finds first as that has it."""
+    """`tokens` with what each of the wordings that are `known` finds as that has it."""
     made = list(tokens)
-    for pattern, told in known:
+    for pattern, told in (each for each in known for _ in range(_TIMES)):
         said = "".join(f"{token.text.replace(' ', '_')} " for token in made)
         if (found := pattern.search(said)) is None:
             continue
-        spans = [tuple(said.count(" ", 0, max(end, 0)) for end in found.span(n)) for n in range(pattern.groups + 1)]
+        spans = [(said.count(" ", 0, start), len(said[: max(end, 0)].split())) for start, end in found.regs]
         start, end = spans[0]
         groups = [made[slice(*spans[int(part[1:])])] if part.startswith("\\") else [] for part in told]
         rest: list[Token] = []
         for at, part in enumerate(told):
             # What is put in stands before what comes next, and what opens it is all that it was said with.
             near = next((group[0] for group in groups[at:] if group), made[end - 1])
-            near = replace(near, end=near.start) if any(groups[:at]) else made[start]
+            near = replace(near, end=near.start) if any(groups[:at]) else replace(made[start], end=made[end - 1].end)
             rest += groups[at] if part.startswith("\\") else [replace(near, text=part, mark=part in ".,:")]
         made[start:end] = rest
     return made
 
 
 _BEGIN = r"(?<![^.,;:] )"
-_COUNTS = ((rf"(?:{word}|{number})", number) for word, number in lexicon.NUMBERS.items() if 2 < number < 9)
+_COUNTS = [(rf"(?:{word}|{number})", number) for word, number in lexicon.NUMBERS.items() if 2 < number < 9]
 _PUT = r"(?:put|move|bring|place|push|slide|arrange|set|lay)"
 _INTO = r"(?:in|into|inside|to|onto|on)"
 _MUST = r"(?:should|must|has to|needs to|ought to) (?:go|be (?:put|moved|placed)|end up) "
 _ALL = r"(?:whatever|what|everything|all that) (?:that )?is "
 _LISTED = r"(?:an? |the )?([^ .,]+ )"
 _AND_SO_ON = r"(?:(?:, )?(?:and )?(?:etc|so on) (?:\. )?)?(?:, )?"
+_OF_BOTH = [("goes", "go"), ("belongs", "belong"), ("is", "are"), ("stands", "stand"), ("lies", "lie"), ("sits", "sit"),
+            ("should", "should"), ("must", "must")]  # fmt: skip
 _MEMBERS = {2: rf"{_LISTED}(?:, )?(?:and |, ){_LISTED}", 3: rf"{_LISTED}, {_LISTED}(?:, )?(?:and |, ){_LISTED}"}
 _USUAL = wordings((
     (r"let there be ", "there are"),
+    # The audit names what is only warned of.
+    (r"(?:, )?(?:and|,|but) (?:be|being) careful (?:[^ .:;]+ )*?(?=[.:;-] )", ""),
     (r"((?:closer|nearer) )together ", r"\1 to each other"),
-    (r"((?:hole|slot|socket|notch|groove|recess|opening) )(?:in|on) (?=(?:the|this) )", r"\1 of"),
     (rf"((?:{'|'.join(lexicon.LEVEL)}) )(?:scene|setup) (?=[,.:] |with )", r"\1"),
     # "The figs go in the box and so does the pear"
-    (rf"{_BEGIN}((?:but |and )?)(the {NAME})((?:go(?:es)?|belongs?|is|are|stands?|should|must) [^.,:]*?)(?:, )?and so"
-     rf" (?:does|do|is|are|should|must) ({NAME})(?=[.,])", r"\1 \2 and \4 \3"),
+    *((rf"{_BEGIN}((?:but |and )?)(the {NAME})(?:{one}|{several}) ([^.,:]*?)(?:, )?and so"
+       rf" (?:does|do|is|are|{one}) ({NAME})(?=[.,])", rf"\1 \2 and \4 {several} \3") for one, several in _OF_BOTH),
     (rf"{_BEGIN}({_PUT} )the (?!{NUMBER} )([^.:]*?), ({NUMBER} )(?:altogether|in (?:all|total)) (?=[.,])",
      r"\1 the \3 \2"),
     (rf"{_BEGIN}({_PUT} )({NUMBER} {NAME})((?:closer|nearer) )", r"\1 the \2 \3"),
     # What is in the box of which a prompt speaks first is not said: the box is emptied.
     (rf"(?<!. ){_ALL}(?:in|inside) (the {NAME}){_MUST}{_INTO} (?=the )", r"empty \1 into"),
-    (rf"(?<!. )((?:please )?){_PUT} everything (?:that is |that's )?(?:in|inside|from|out of) (the {NAME}){_INTO} "
-     r"(?=the )", r"\1 empty \2 into"),
+    (rf"(?<!. )((?:please )?){_PUT} everything (?:that is |that's )?(?:in|inside|out of) (the {NAME}){_INTO} "
+     r"(?=the )(?![^.]*(?:except|but|save) )", r"\1 empty \2 into"),
     (rf"{_ALL}((?:in|on|inside) the {NAME}){_MUST}(?:in|into|inside) (?=the )", r"move everything \1 into"),
     # "Throw away the two empty cans, keep the full one on the desk"
     (rf"{_BEGIN}([^.,]* )the ({NUMBER} {NAME}), (?:and |but )?(?:keep|leave) the ([^ .,]+ one )((?:on|in) the {NAME})"

@@ -9,7 +9,7 @@ _NAMES = """
     prong seam strap zipper hinge crust rind stalk fin mane horn whisker crease wick lens dial keyhole slot
     stitching engraving bite residue component earpiece text lettering lace sole logo sticker crack scratch stain
     decal emblem inscription gripper effector yolk condensation droplet underside outline hue highlight reflection
-    manipulator hardware tine exterior peel level tier headboard footboard neck jaw hole notch groove recess socket
+    manipulator hardware tine exterior peel level tier headboard footboard neck jaw
 """
 PARTS = frozenset(_NAMES.split())
 """Their names, wherever they stand."""
@@ -20,7 +20,7 @@ _HAD = """
     drawstring eyelet fang feather filament flame fretboard fringe gemstone grip hair headlight headrest heel
     hem hilt hood hoof hooves hull jewel keypad lapel latch lever lining mast monogram motif muzzle neck numeral
     peak pendant pistil plume pommel propeller rivet roof rotor ruffle rung saddle shaft shoelace snout spike spoke
-    stopper stud tassel thorn tongue tread trigger tusk visor waistband wax windscreen windshield topping
+    stopper stud tassel thorn tongue tread trigger tusk visor waistband wax windscreen windshield hole topping
     linen sheet linens bedding panel panelling paneling pump upholstery
 """
 HAD = frozenset(_HAD.split())
