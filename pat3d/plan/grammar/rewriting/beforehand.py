@@ -13,7 +13,7 @@ from pat3d.plan.english import plural
 from pat3d.plan.grammar.rewriting.errands import FILLING
 from pat3d.plan.grammar.rewriting.instructions import VERBS, known_verb
 from pat3d.plan.grammar.rewriting.wielded import noun_of, wielded
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, postures
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.number_words import ORDINALS
@@ -27,7 +27,7 @@ _OTHERWISE = frozenset({"from", "of", "out", "off", "that", "which", "and", "or"
 _SWAPPING = frozenset({"swap", "exchange", "trade", "switch"})
 _TO = frozenset({"with", "into", "onto", "to"})
 _AGAIN = ("do", "the", "same")
-_FROM_AN_END = (("from", "the", "left"), ("from", "the", "right"))
+_FROM_AN_END = (("from", "the", "left"), ("from", "the", "right"), ("in", "the", "row"), ("in", "the", "line"))
 _ARRANGED = lexicon.STACK_NOUNS | lexicon.ROWS | {"top", "bottom"}
 _STATES = {"open": "open", "opened": "open", "closed": "closed", "shut": "closed", "empty": "empty"}
 _TOPS = (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES, lexicon.THIN)
@@ -55,7 +55,7 @@ def several_told_by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         many = plural(words[name - 1])
         others = {words[name - 1], many, "one", "ones"} & {*words[:at], *words[name:]}
-        others |= _ARRANGED & {*words[start:]}
+        others |= _ARRANGED & {*words[start:at], *words[name + 3 * row :]}
         if others or not any(map(known_verb, words[start : start + 2])):
             continue
         number = {2: "several", 3: "several", 4: "many"}.get(rank, "some")
@@ -74,10 +74,10 @@ def _as_it_is(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     while rest and words[0] == "with":
         stop = next((n for n in range(2, len(rest)) if rest[n].text in (",", "and")), len(rest))
         part, rest = rest[:stop], rest[stop + 1 :]
-        verb = next((n for n in range(2, len(part)) if part[n].text in _STATES or (
-            link_at(part, n) and part[n].text != "of")), 0)  # fmt: skip
+        verb = next((n for n in range(2, len(part)) if part[n].text in _STATES or postures.is_posture(part[n].text)
+                     or (link_at(part, n) and part[n].text != "of")), 0)  # fmt: skip
         thing = noun_of([token.text for token in part[:verb]], nouns)
-        if part[0].text not in _LEADS | {"a", "an"} or thing is None:
+        if part[0].text not in _LEADS | lexicon.DETERMINERS | lexicon.NUMBERS.keys() or thing is None:
             return []
         where = [replace(part[verb], text=_STATES.get(part[verb].text, part[verb].text)), *part[verb + 1 :]]
         made.append(_told(part[:verb], where, many=thing.plural))

@@ -47,12 +47,16 @@ _SWAP = r"(?:swap|trade|switch|exchange|interchange) "
 _PLACES = r"(?:[^ ]+ ){0,2}(?:place|position|location|spot)s? "
 _WORDINGS = wordings((
     (r"(?<!a )(?<!the )(line )((?:(?!(?:up|on|in|to|of|with|from|next|at|by) )[^ .,:;]+ )+)up ", r"\1 up \2"),
+    (rf"(?<![^.,;:dn] )((?:lay|set|spread) )out (?={LEAD})", r"\1"),
+    (r"(?<![^.,;:dn] )lay down ", "put down"),
     # "Swap the positions of the cup and the can", "have the cup and the can trade places"
     (rf"({_SWAP}){_PLACES}(?:of|between) ", r"\1"),
     (rf"(?<!. )(?:have |let |make )?([^.,]* and [^.,]*?){_SWAP}{_PLACES}(?=[.,])", r"swap \1"),
     # Of two that are parted neither is on the other.
     (rf"(?<!. )((?:separate|part|distinguish) {LEAD}[^.,:;]*?)from (?={LEAD})", r"\1 and"),
     (rf"(?:give|hand|pass) the (?:{'|'.join(_RECEIVERS)}) (?={LEAD})", "fetch"),
+    (r"((?:build|make|create|construct) )(?:me|us) ", r"\1"),
+    (r"((?:build|make|create|construct) [^.,]*)for (?:me|us) (?=[.,])", r"\1"),
     (r"(?:hand|give|bring|pass|fetch|get) (?:me|us) ", "fetch"),
     (r"give ((?:[^ ]+ )*?)to (?:me|us) ", r"fetch \1"),
 ))  # fmt: skip
@@ -140,15 +144,11 @@ def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf", "lay out" as "lay"."""
+    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf"."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 3):
         led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
         follower = words[at + 2] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.POSSESSIVES
-        if led and follower and words[at] in ("lay", "set", "spread") and words[at + 1] == "out":
-            return [*tokens[: at + 1], *tokens[at + 2 :]]
-        if led and words[at : at + 2] == ["lay", "down"]:
-            return [*tokens[:at], replace(tokens[at], text="put"), *tokens[at + 1 :]]
         if not (led and follower and words[at : at + 2] == ["line", "up"]):
             continue
         end = next(n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n))

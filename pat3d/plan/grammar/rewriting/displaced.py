@@ -23,7 +23,14 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 NEARNESS = frozenset({"closer", "closest", "nearer", "nearest"})
 _TAKING = frozenset({"pick", "grab", "lift", "grasp"})
 _SOME = rf"(?:{'|'.join(lexicon.NUMBERS)}) |the (?:{'|'.join(lexicon.SUPERLATIVES)}) "
-_OF_WHICH = wordings(((rf"of which ({_SOME})(?=(?:{'|'.join(STANDING)}) )", r"\1 of which"),))
+_MEMBERS = wordings(
+    (
+        (rf"of which ({_SOME})(?=(?:{'|'.join(STANDING)}) )", r"\1 of which"),
+        # "Two cubes, one on the other", "one leaning on the other"
+        (r"(, one )(leaning )[^ ]+ (?=[^ ]+ other )", r"\1 of them \2 against"),
+        (r"(?<!on )(one on )(the other )(?=[.,:;-] )", r"\1 top of \2"),
+    )
+)
 _BARE = r"(?<!the )(?<!its )((?:left|right) )"
 _SIDES = wordings(((rf"{_BARE}(and [^.]*?){_BARE}(?=of )", r"to the \1 \2 to the \3"),))
 """A fork left and a knife right of a plate"""
@@ -39,7 +46,7 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*_nearer(tokens, nouns), tokens[-1]])
     ]
-    return _shared_landmark(_last_in_order(_verb_again(reworded(_one_upon(tokens), _OF_WHICH))))
+    return _shared_landmark(_last_in_order(_verb_again(reworded(tokens, _MEMBERS))))
 
 
 def _nearer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -157,20 +164,6 @@ def which_bears(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if words[further] in STANDING:
             having, it = replace(tokens[at], text="with"), replace(tokens[first - 1], text="it")
             return [*tokens[: at - comma], having, *tokens[first:verb], *tokens[at : first - 1], it, *tokens[further:]]
-    return list(tokens)
-
-
-def _one_upon(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "two cubes, one on the other" as "one on top of the other", "one leaning" as "one of them"."""
-    words = [token.text for token in tokens]
-    for at in range(len(words) - 4):
-        if words[max(at - 1, 0) : at + 1] == [",", "one"] and words[at + 1] == "leaning" and words[at + 4] == "other":
-            of, them, against = (replace(tokens[at + 2], text=word) for word in ("of", "them", "against"))
-            return [*tokens[: at + 1], of, them, tokens[at + 1], against, *tokens[at + 3 :]]
-        upon = words[at : at + 4] == ["one", "on", "the", "other"] and tokens[at + 4].mark
-        if upon and "side" not in words[:at] and words[max(at - 1, 0)] != "on":
-            on = tokens[at + 1]
-            return [*tokens[: at + 2], replace(on, text="top"), replace(on, text="of"), *tokens[at + 2 :]]
     return list(tokens)
 
 

@@ -47,7 +47,7 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     # "the sponge you're holding", "the cup I used", "the second and the third cup are not"
     r"(?<=\S )(?<!\. )(?<!, )(?<!can )(?<!could )(?<!what )(?<!that )(?<!as )(?<!if )(?<!and )(?:you|i|we)"
     r"(?:'re|'ve|'m| are| have| had| am| were)? (?:just |already |now )?"
-    r"(?:\S+(?:ing|ed)|got|made|bought|put|took|left|chose|drank|gave|saw)"
+    r"(?:\S+(?:ing|ed)|got|made|bought|put|took|left|chose|drank|gave|saw|lost|found|broke|brought|sent|wore|built|hid)"
     r"(?: (?:with|up|before|earlier|now|from(?= (?!the |a |my ))))?",
     r"(?:, |but )(?:the (?:first|second|third|fourth|fifth) \S+ (?:and )?)+(?:is|are) not(?= [.] )",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"

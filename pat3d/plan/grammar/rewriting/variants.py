@@ -11,6 +11,7 @@ from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.rewriting.named_like_colours import with_their_amount
 from pat3d.plan.grammar.rewriting.of_material import made_of
 from pat3d.plan.grammar.rewriting.respectively import respectively
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -112,11 +113,14 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
 _VARIED = frozenset({"different", "various", "varying", "assorted", "mixed"})
-_BY_TURNS = frozenset({"alternating", "alternately", "alternatingly"})
-_IN_TURN = 12
-"""Things in a row that take turns, at most."""
 _OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
-_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
+_ASKING = r"(?:(?:could|can|would|will|you|please|kindly) )*"
+_BEGINNINGS = wordings((
+    (rf"(?<!. )({_ASKING})(?:set up|put together) (?!(?:{'|'.join(lexicon.DEFINITE)}) )", r"\1 create"),
+    # "Don't use a tray": there is none.
+    (r"(?<!. )(?:do not|don't|never) (?:use|add) (?:a|an|any) ((?:(?!to )[^ ,]+ )+)(?=\. )", r"there is no \1"),
+    (r"(?<=[^ ] [^ ] )after (?:that|this) (?=\. )", ""),
+))  # fmt: skip
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -131,22 +135,13 @@ def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "one after the other: put the cup away" as "put the cup away", "set up a desk" as "create ..."."""
+    tokens = reworded(tokens, _BEGINNINGS)
     words = [token.text for token in tokens]
-    at = next((n for n, word in enumerate(words) if word not in _ASKING), 0)
-    if words[at : at + 2] in (["set", "up"], ["put", "together"]) and words[at + 2] not in lexicon.DEFINITE:
-        return [*tokens[:at], replace(tokens[at], text="create"), *tokens[at + 2 :]]
     opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
-    at = 1 + (words[:2] == ["do", "not"])
-    forbids = (at == 2 or words[0] in ("don't", "never")) and words[at] in ("use", "add")
-    if forbids and words[at + 1] in ("a", "an", "any") and not {"to", ","} & {*words}:
-        # "Don't use a tray": there is none.
-        return [*(replace(tokens[0], text=word) for word in ("there", "is", "no")), *tokens[at + 2 :]]
     told = len(words) > 6 and "and" in words and base_verb(words[0]) == words[0]
     if told and words[-2] == "that" and link_at(tokens, len(words) - 3):
         # "Put the mat on the desk and the cup on that": on what is put there.
         return [*tokens[:-2], replace(tokens[-2], text="it"), tokens[-1]]
-    if tuple(words[-3:-1]) in (("after", "that"), ("after", "this")) and len(words) > 5:
-        return [*tokens[:-3], tokens[-1]]  # "clear the tray after that"
     return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 

@@ -240,6 +240,7 @@ def _made_sure(tokens: list[Token]) -> list[Token]:
 
 def _put_there(tokens: Sequence[Token], first: Token) -> list[Token]:
     """`tokens` with "there is a cup and two forks on the tray" as "put the cup and the two forks on the tray"."""
+    tokens = [token for token in tokens if token.text not in ("exactly", "precisely")]
     words = [token.text for token in tokens]
     place = next((n for n in range(3, len(words) - 2) if link_at(tokens, n) and words[n] not in ("of", "with")), 0)
     counted = [n for n in range(2, place) if words[n - 1] in (",", "and", *lexicon.COPULAS)]

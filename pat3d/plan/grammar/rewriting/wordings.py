@@ -76,8 +76,8 @@ _USUAL = wordings((
      r"(?=the )(?![^.]*(?:except|but|save) )", r"\1 empty \2 into"),
     (rf"{_ALL}((?:in|on|inside) the {NAME}){_MUST}(?:in|into|inside) (?=the )", r"move everything \1 into"),
     # "Throw away the two empty cans, keep the full one on the desk"
-    (rf"{_BEGIN}([^.,]* )the ({NUMBER} {NAME}), (?:and |but )?(?:keep|leave) the ([^ .,]+ one )((?:on|in) the {NAME})"
-     r"(?=\.)", r"there are \2 and another \3 \4 . \1 the \2"),
+    (rf"{_BEGIN}([^.,]* )the ({NUMBER} {NAME})(?:, )?(?:and |but )?(?:keep|leave) the ([^ .,]+ one )"
+     rf"((?:on|in) the {NAME})(?=\.)", r"there are \2 and another \3 \4 . \1 the \2"),
     # "Collect four fruits such as an apple, a banana, etc in the bowl"
     *((rf"{word} ([^ .,]+s )(?:, )?(?:such as|like) {listed}{_AND_SO_ON}(?={_INTO} )",
        " , ".join(rf"the \{n}" for n in range(2, count + 2)) + rf" and {number - count} other \1")
