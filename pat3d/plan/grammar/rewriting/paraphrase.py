@@ -33,12 +33,13 @@ from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
 from pat3d.plan.grammar.rewriting.ranges import ranged
-from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, on_top, one_of_two, upon_it
+from pat3d.plan.grammar.rewriting.restated import EMPTIED, bare, become, covering, on_top, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
 from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
 from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_surface, stood_where
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
+from pat3d.plan.grammar.rewriting.wordings import reworded
 from pat3d.plan.grammar.words import lexicon, postures
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
@@ -85,7 +86,7 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(on_top(upon_it(tokens), nouns)), nouns), nouns), nouns)
-    tokens = counted(fronted(stateless(formed(emptied(tokens)), nouns)), nouns)
+    tokens = counted(fronted(stateless(formed(reworded(tokens, EMPTIED)), nouns)), nouns)
     refuse_negations(tokens)
     tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
     tokens = _sides_of(_its_places(become(from_parentheses(text, tokens, nouns))), nouns)
