@@ -7,6 +7,7 @@ they are; nothing is gripped, so that the hand does not twist a drawer in its ca
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -53,7 +54,7 @@ class Pull:
     """Of the hand over its fingertips, and of these under the bar [m]."""
     half: float
     """0 or pi: the fingers either way round [rad]."""
-    closing_axis: Array
+    closing_axis: Sequence[float]
     high: float = 0.0
     """Of the hand on its way there [m]."""
 
@@ -111,7 +112,7 @@ class PullPlanner(Planner):
                 holder_rotation=holder.copy(),
                 tip=gripper.tip - BELOW,
                 half=half,
-                closing_axis=np.asarray(gripper.closing_axis),
+                closing_axis=gripper.closing_axis,
             )
             pull = replace(pull, high=self._high(opening, pull))
             turn, first = 0.0, pull.hand(0.0)[1]

@@ -118,7 +118,7 @@ class World:
         return SimpleNamespace(
             control="osc",
             robot="",
-            task=SimpleNamespace(kind="pick", slide=lambda *_: None),
+            task=SimpleNamespace(kind="pick", opening=lambda *_: None),
             scene=self.scene,
             simulation=simulation,
             placement=SimpleNamespace(surface=0.0, grasps={}),
