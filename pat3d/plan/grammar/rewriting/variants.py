@@ -119,7 +119,7 @@ _BEGINNINGS = wordings((
     (rf"(?<!. )({_ASKING})(?:set up|put together) (?!(?:{'|'.join(lexicon.DEFINITE)}) )", r"\1 create"),
     # "Don't use a tray": there is none.
     (r"(?<!. )(?:do not|don't|never) (?:use|add) (?:a|an|any) ((?:(?!to )[^ ,]+ )+)(?=\. )", r"there is no \1"),
-    (r"(?<=[^ ] [^ ] )after (?:that|this) (?=\. )", ""),
+    (r"([^ ]+ [^ ]+ [^ ]+ )after (?:that|this) (?=\. )", r"\1"),
 ))  # fmt: skip
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
