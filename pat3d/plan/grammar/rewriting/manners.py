@@ -29,6 +29,8 @@ _EXTREME = (
     r"(?:the )?(?:largest|smallest|biggest|tallest|shortest|longest|heaviest|lightest|thickest|thinnest|widest"
     r"|narrowest|big|small|large|tall|short)(?: one)?(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 )
+_NO_NAMES = (r"\.", ",", *"can could what that as if and after before once when where until while".split())
+"""Words before "you" and "I" that are not what those have or use."""
 _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
     # "insert the pen tip first"
@@ -45,7 +47,7 @@ _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?<=\S )(?:(?:a|one|two|three) (?:quarters?|thirds?|half)|half ?way|to the (?:brim|rim|top))(?= (?:full|with) )",
     r", (?:larg|small|bigg|tall|short|long)est (?:first|(?:on|at) the (?:left|right|front|back))(?= [,.] )",
     # "the sponge you're holding", "the cup I used", "the second and the third cup are not"
-    r"(?<=\S )(?<!\. )(?<!, )(?<!can )(?<!could )(?<!what )(?<!that )(?<!as )(?<!if )(?<!and )(?:you|i|we)"
+    rf"(?<=\S ){''.join(f'(?<!{word} )' for word in _NO_NAMES)}(?:you|i|we)"
     r"(?:'re|'ve|'m| are| have| had| am| were)? (?:just |already |now )?"
     r"(?:\S+(?:ing|ed)|got|made|bought|put|took|left|chose|drank|gave|saw|lost|found|broke|brought|sent|wore|built|hid)"
     r"(?: (?:with|up|before|earlier|now|from(?= (?!the |a |my ))))?",
