@@ -32,7 +32,7 @@ from pat3d.layout.leaning import leaning_rotation
 from pat3d.layout.loosening import loosen
 from pat3d.layout.place_settings import place_settings, turned
 from pat3d.layout.postures import posture_rotation
-from pat3d.layout.seats import SAT_AT, SEATS, around, facing, seated, sides
+from pat3d.layout.seats import SEATS, around_tables, beside_tables, facing, seated
 from pat3d.layout.shares import Top
 from pat3d.layout.shelved import bookends
 from pat3d.layout.slots import stand_in_slots
@@ -44,7 +44,6 @@ from pat3d.layout.turns import abreast, free_turn
 from pat3d.scene.arrangements import Arrangement, check_arrangements
 from pat3d.scene.asset import Asset
 from pat3d.scene.model import GROUND, Attachment, Relation, check_tree
-from pat3d.scene.relations import OPPOSITE, SIDES
 
 _FURNITURE = 0.6
 """Objects larger than this [m] stand parallel to the walls of an imagined room."""
@@ -327,35 +326,11 @@ class _Arranger:
 
     def _around_tables(self) -> dict[str, dict[str, tuple[Array, float]]]:
         asked = {name for intents in self.intents.by_surface.values() for one in intents for name in one.stands_for}
-        free = set(self.bodies) - asked - set(self.fixed)
-        chairs = [name for name in free if SEATS & set(self.bodies[name].asset.noun.split())]
-        found = {}
-        for support, laterals in self.laterals.items():
-            room = np.full(2, np.inf) if support == GROUND else self.bodies[support].asset.size[:2]
-            for table, names in around(laterals, chairs).items():
-                asset = self.bodies[table].asset
-                round_top = any(one.shape == "disc" for one in asset.regions if one.kind == "on")
-                if round_top or table not in free or not SAT_AT & set(asset.noun.split()):
-                    continue
-                ways = sides(len(names), asset.size[:2], [self.bodies[name].asset.size[:2] for name in names], room)
-                if ways:
-                    found[table] = dict(zip(names, ways, strict=True))
-        return found
+        return around_tables(self.bodies, self.laterals, set(self.bodies) - asked - set(self.fixed))
 
     def _seats(self) -> dict[str, float]:
         found = {name: facing(way) for ways in self._around.values() for name, (way, _) in ways.items()}
-        for lat in self.laterals.get(GROUND, []):
-            nouns = [set(self.bodies[name].asset.noun.split()) for name in (lat.child, lat.parent)]
-            for seat, table, kind, own, other in (
-                (lat.child, lat.parent, lat.kind, *nouns),
-                (lat.parent, lat.child, OPPOSITE[lat.kind], *reversed(nouns)),
-            ):
-                if kind in SIDES and SEATS & own and SAT_AT & other and table != seat:
-                    axis, sign = SIDES[kind]
-                    way = -sign * np.eye(2)[axis]
-                    # The front of an asset is at -y.
-                    found[seat] = float(np.arctan2(way[1], way[0]) + np.pi / 2)
-        return found
+        return found | beside_tables(self.bodies, self.laterals.get(GROUND, []))
 
     def _turn(self, name: str) -> float | None:
         """By how much a thing may be turned [rad] once it stands; None where something depends on its direction."""

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
-from pat3d.layout.bodies import Array
+from pat3d.layout.bodies import Array, Body
 from pat3d.layout.flat import Lateral
 from pat3d.layout.formations import Formation
 from pat3d.layout.group import Group
+from pat3d.scene.model import GROUND
+from pat3d.scene.relations import OPPOSITE, SIDES
 
 SEATS = frozenset({"chair", "armchair", "stool", "bench"})
 """Nouns that turn towards what they stand around."""
@@ -77,3 +79,43 @@ def seated(table: str, ways: Mapping[str, tuple[Array, float]], groups: Mapping[
         out = float(np.abs(way) @ (top + own)) / 2 + _AIR
         offsets[name] = out * way + place * np.abs(way[::-1])
     return Formation(members=tuple(offsets), fixed=offsets)
+
+
+def around_tables(
+    bodies: Mapping[str, Body], laterals: Mapping[str, Sequence[Lateral]], free: Collection[str]
+) -> dict[str, dict[str, tuple[Array, float]]]:
+    """Seats around each table that has sides, as `sides` places them; of what is `free` to stand so alone.
+
+    Args:
+        bodies: by name.
+        laterals: by what they stand on.
+        free: names of what has no place of its own.
+    """
+    chairs = [name for name in free if SEATS & set(bodies[name].asset.noun.split())]
+    found = {}
+    for support, own in laterals.items():
+        room = np.full(2, np.inf) if support == GROUND else bodies[support].asset.size[:2]
+        for table, names in around(own, chairs).items():
+            asset = bodies[table].asset
+            round_top = any(one.shape == "disc" for one in asset.regions if one.kind == "on")
+            if round_top or table not in free or not SAT_AT & set(asset.noun.split()):
+                continue
+            ways = sides(len(names), asset.size[:2], [bodies[name].asset.size[:2] for name in names], room)
+            if ways:
+                found[table] = dict(zip(names, ways, strict=True))
+    return found
+
+
+def beside_tables(bodies: Mapping[str, Body], laterals: Sequence[Lateral]) -> dict[str, float]:
+    """Yaw [rad] of each seat that stands at a side of a table, its front to it."""
+    found = {}
+    for lat in laterals:
+        nouns = [set(bodies[name].asset.noun.split()) for name in (lat.child, lat.parent)]
+        for seat, table, kind, own, other in (
+            (lat.child, lat.parent, lat.kind, *nouns),
+            (lat.parent, lat.child, OPPOSITE[lat.kind], *reversed(nouns)),
+        ):
+            if kind in SIDES and SEATS & own and SAT_AT & other and table != seat:
+                axis, sign = SIDES[kind]
+                found[seat] = facing(sign * np.eye(2)[axis])
+    return found

@@ -28,7 +28,7 @@ _OF_THEM = (["of", "them"], ["of", "which"], ["of", "these"], ["of", "those"])
 def numbers(it: Compared) -> Iterator[tuple[int, str]]:
     """Numbers of which the plan has others."""
     for find in (_miscounted_shares, _shares_of_each, _shares_of_sides, _all_but, _dozens, _as_many,
-                 _in_brackets, _alike, _of_one, _stacked, _partly, _compared_sizes, _held_by_other):  # fmt: skip
+                 _in_brackets, _of_one, _stacked, _partly, _compared_sizes, _held_by_other):  # fmt: skip
         yield from find(it)
 
 
@@ -289,18 +289,6 @@ def _in_brackets(it: Compared) -> Iterator[tuple[int, str]]:
         plain = not NUMBERS.keys() - {"a", "an"} & {word for each in listed for word in each.split()}
         if said < at and len(listed) > 1 and plain and len(listed) != NUMBERS[words[said]]:
             yield at, f'counted otherwise: "{" ".join(words[said:at])}", of which {len(listed)} are listed'
-
-
-def _alike(it: Compared) -> Iterator[tuple[int, str]]:
-    """Things that are to have the colour of others, and of which none has one."""
-    words = it.said.words
-    for at in range(2, len(words)):
-        said = words[at - 1 : at + 1] if words[at] in ("color", "colour") else []
-        own = [mention for mention in it.said.mentions if mention.end <= at - 1][-1:]
-        if said[:1] not in (["same"], ["matching"]) or not own or it.named(" ".join(said)):
-            continue
-        if not any(obj.colours for obj in it.which(own[0])):
-            yield at, f'not modelled: "{" ".join(said)}" of "{own[0].text}"'
 
 
 def _of_one(it: Compared) -> Iterator[tuple[int, str]]:

@@ -56,7 +56,7 @@ class Asides(RelationWords):
             return True
         if word in ("all", "both") and follower in lexicon.STATES and self._tokens[self._at + 2].mark:
             return self._leave(2)
-        if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state(1):
+        if word in lexicon.STATES and (after_noun or self._opens) and self._ends_state():
             size = self._to_mark()
             off = self._word(1) in ("off", "up", "out", "open", "down")
             return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1 + off)
@@ -122,14 +122,14 @@ class Asides(RelationWords):
         """Tokens up to the next mark."""
         return next(size for size in range(1, len(self._tokens)) if self._tokens[self._at + size].mark)
 
-    def _ends_state(self, ahead: int) -> bool:
+    def _ends_state(self) -> bool:
         """Whether what became of an object ends here or goes on: "cut into slices,", "hidden from view."."""
-        follower = self._tokens[self._at + ahead]
+        follower = self._tokens[self._at + 1]
         if follower.text in ("off", "up", "out", "open", "down"):
             return True
-        bare = follower.text in ("into", "from", "by", "in") and self._word(ahead + 1) not in lexicon.DETERMINERS
+        bare = follower.text in ("into", "from", "by", "in") and self._word(2) not in lexicon.DETERMINERS
         return follower.mark or follower.text == "and" or (bare and any(
-            self._tokens[self._at + ahead + size].mark for size in (2, 3)
+            self._tokens[self._at + size].mark for size in (3, 4)
         ))  # fmt: skip
 
     def _superlative(self) -> Modifiers | None:

@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chunking.chunks import MAX_CHUNKS, Chunk, Sentence
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.qualities import Qualities
 from pat3d.plan.grammar.chunking.turned import turned
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import LINKS, LONGEST_LINK
@@ -47,7 +47,7 @@ _EMPTY = frozenset({
 """Words that mean nothing by themselves."""
 """Words of which something is left where they are not part of a relation."""
 _JOINTS = frozenset({"and", "plus", "while", "but"})
-_STANDING = (*lexicon.FLOOR, *lexicon.NOT_IN_VESSEL, "plant", "bin", "toolbox")
+_STANDING = (*lexicon.FLOOR, *vessels.NOT_IN_VESSEL, "plant", "bin", "toolbox")
 
 
 class Cutter(Qualities):
@@ -105,9 +105,6 @@ class Cutter(Qualities):
         for key in _JOINED:
             if self._words(len(key)) == key:
                 return self._joined(key)
-        if word in lexicon.MODALS and follower == "be":
-            self._at += 1
-            return None
         if self._relation():
             return None
         of_each = follower == "of" and self._last is not None and self._last.kind == "rel"
@@ -150,9 +147,6 @@ class Cutter(Qualities):
             and not (word != "each" and (follower == "of" or self._tokens[self._at + 1].mark))
         ):
             return self._add("noun", phrase=Phrase(kind="pieces", head=word, words=word, number=token.number))
-        if word in ("do", "does") and (follower == "too" or self._words(3)[1:] == ("as", "well")):
-            self._at += 1
-            return None
         if word in ("too", "also") or self._words(2) == ("as", "well"):
             return self._too(1 if word != "as" else 2)
         relative = word in ("which", "that", "who") and self._made.chunks and self._last.kind != "rel"  # type: ignore[union-attr]
@@ -379,7 +373,7 @@ class Cutter(Qualities):
         """Read "the dog's head": the part places nothing, its owner has been read."""
         read = self._phrases.read(self._at + 1)
         self._at += 1
-        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in lexicon.ON_RIMS)
+        part = read is not None and (read[0].kind in ("part", "unknown") or read[0].head in vessels.ON_RIMS)
         if read is not None and part and not read[0].determined:
             if read[0].said in ("side", "corner", "edge", "end"):
                 self._made.unread.append(read[0].words or read[0].said)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from pat3d.assets.materials import find_material
-from pat3d.plan.grammar.words import lexicon, shapes
+from pat3d.plan.grammar.words import lexicon, shapes, vessels
 from pat3d.plan.grammar.words.boundaries import Boundaries
 from pat3d.plan.grammar.words.determiners import opening
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -236,7 +236,7 @@ class PhraseReader:
             # "the dinosaur figure"
             return replace(base, kind="object", noun=shown.noun, said=shown.said, plural=head.endswith("s"),
                            modifiers=read_modifiers(words[:-2]))  # fmt: skip
-        closing = head in lexicon.ON_RIMS and not self._definite
+        closing = head in vessels.ON_RIMS and not self._definite
         if len(words) > 1 and head in lexicon.DETACHED and not closing and self._nouns.match(words[-2:]) is None:
             # "the top dresser drawer", "the cabinet shelf"
             whole = self._simple(run[:-1], count)
@@ -356,7 +356,7 @@ class PhraseReader:
             part = True
         elif head in lexicon.FITTED and inner.definite:
             # "the top rack of the oven"
-            part = self._nouns.of_class(inner.noun, (*lexicon.FLOOR, *lexicon.CLOSED))
+            part = self._nouns.of_class(inner.noun, (*lexicon.FLOOR, *vessels.CLOSED))
         else:
             # "one of the shelves of a bookcase", but not "a shelf of books".
             part = part and len(known[1]) == 1 and self._nouns.of_class(inner.noun, lexicon.LEVEL)
@@ -369,7 +369,7 @@ class PhraseReader:
                 return replace(whole, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                substance=inner.head), after  # fmt: skip
             return (replace(whole, substance=inner.head), after) if whole.kind == "object" else None
-        tables = (lexicon.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
+        tables = (vessels.HOLLOW, lexicon.LEVEL, lexicon.DISHES)
         holds = known is not None and any(self._nouns.of_class(known[0].noun, table) for table in tables)
         portion = any(word in lexicon.PORTIONS for word in singular)
         shape = any(word in lexicon.SHAPES for word in singular)
@@ -380,8 +380,6 @@ class PhraseReader:
             if compound:
                 return replace(inner, kind="object", noun=compound.noun, said=compound.said, plural=plural, count=count,
                                cycle=(), modifiers=inner.modifiers.under(rest)), after  # fmt: skip
-            if portion and not holds and inner.kind == "pieces":
-                return replace(inner, kind="unknown"), after
             if (not holds and inner.kind == "object") or (portion and inner.kind == "unknown"):
                 amount = inner.count if count is None and plural else count
                 # "Two slices of pizza" are two whole ones.

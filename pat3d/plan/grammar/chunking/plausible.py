@@ -6,7 +6,7 @@ The one place where attachment and pronouns are decided: every reading is the su
 from __future__ import annotations
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.sizes import slips_into, too_large
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -66,18 +66,18 @@ class Plausible:
 
     def hollow(self, noun: str) -> bool:
         """Whether things go into it from above."""
-        return self.is_a(noun, lexicon.HOLLOW)
+        return self.is_a(noun, vessels.HOLLOW)
 
     def closet(self, noun: str) -> bool:
         """Whether things go into it through a door or a drawer."""
         return self.is_a(
-            noun, lexicon.STORAGE, lexicon.CLOSED, tuple(lexicon.HOUSES.values()), ("drawer", "open drawer")
+            noun, lexicon.STORAGE, vessels.CLOSED, tuple(lexicon.HOUSES.values()), ("drawer", "open drawer")
         )
 
     def opens(self, noun: str) -> bool:
         """Whether it is a thing to put others into: a vessel, a cupboard, a bag; a desk is first of all a table."""
         flat = self.is_a(noun, ("desk", "cart"))
-        inside = self.hollow(noun) or self.is_a(noun, tuple(lexicon.OPENED), lexicon.HOLDERS)
+        inside = self.hollow(noun) or self.is_a(noun, tuple(vessels.OPENED), vessels.HOLDERS)
         return inside or (self.closet(noun) and not flat)
 
     def level(self, noun: str) -> bool:
@@ -88,7 +88,7 @@ class Plausible:
         """Of `child` resting on `parent`."""
         if self.closes(child, parent):
             return 0.0
-        if self.is_a(child, lexicon.ON_RIMS):
+        if self.is_a(child, vessels.ON_RIMS):
             return 0.9 if not self.floor(parent) else 0.45
         if (
             self.floor(child)
@@ -105,7 +105,7 @@ class Plausible:
             return 0.0
         if self.is_a(parent, lexicon.DISHES) and not self.is_a(parent, ("tray", "placemat")):
             return 0.1 if self._fits_dish(child) else 0.9
-        if self.is_a(parent, _SOFT) and self.hollow(child) and not self.is_a(child, lexicon.LARGE_VESSELS):
+        if self.is_a(parent, _SOFT) and self.hollow(child) and not self.is_a(child, vessels.LARGE_VESSELS):
             return 0.7
         if self.level(parent):
             return 0.0
@@ -118,7 +118,7 @@ class Plausible:
         panned = self.is_a(parent, _PANS) and self._fits_dish(child)
         if self.is_a(parent, _SUPPORTING) or self.tops(child, parent) or panned:
             return 0.3
-        if self.is_a(parent, lexicon.ROUND, lexicon.SLENDER) and child != parent:
+        if self.is_a(parent, lexicon.ROUND, vessels.SLENDER) and child != parent:
             return 2.2
         if self.hollow(parent):
             return 0.9
@@ -137,7 +137,7 @@ class Plausible:
         """Whether `child` is what closes `parent`: the lid of a jar, the cap of a bottle."""
         if child == "cap":
             return self.is_a(parent, lexicon.PARTS_OF["cap"])
-        return self.is_a(child, lexicon.ON_RIMS) and (self.hollow(parent) or self.is_a(parent, _CLOSED_BY_LIDS))
+        return self.is_a(child, vessels.ON_RIMS) and (self.hollow(parent) or self.is_a(parent, _CLOSED_BY_LIDS))
 
     def within(self, child: str, parent: str) -> float:
         """Of `child` being inside `parent`."""
@@ -148,16 +148,16 @@ class Plausible:
         if self.is_a(parent, _POTS[:2]) and not self.is_a(child, _GROWING):
             return 0.7
         if self.hollow(parent):
-            if self.is_a(parent, lexicon.NARROW):
-                if self.is_a(child, lexicon.SLENDER):
+            if self.is_a(parent, vessels.NARROW):
+                if self.is_a(child, vessels.SLENDER):
                     return 0.0
                 return 1.6 if self._vessel(child) else 0.2 if slips_into(child, parent) else 0.7
-            if child != parent and self.is_a(child, lexicon.LARGE_VESSELS, lexicon.NOT_IN_VESSEL):
+            if child != parent and self.is_a(child, vessels.LARGE_VESSELS, vessels.NOT_IN_VESSEL):
                 return 1.6
-            if child != parent and self.is_a(parent, lexicon.BOWLS):
+            if child != parent and self.is_a(parent, vessels.BOWLS):
                 return 1.3 if self._vessel(child) or self.is_a(child, lexicon.LEVEL, lexicon.NOT_ON_DISH) else 0.0
             return 0.0
-        if self.closet(parent) or self.is_a(parent, tuple(lexicon.OPENED), lexicon.HOLDERS):
+        if self.closet(parent) or self.is_a(parent, tuple(vessels.OPENED), vessels.HOLDERS):
             return 0.3
         if self.level(parent):
             return 0.5 + self.on(child, parent)
@@ -169,7 +169,7 @@ class Plausible:
             return 0.1
         lone = child if self.floor(parent) else parent
         # "A sink and a toilet in front of a mirror", which hangs or stands there
-        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, lexicon.LARGE_VESSELS, LARGE, ("mirror",)) else 1.4
+        return 0.4 if self.is_a(lone, lexicon.BY_A_SEAT, vessels.LARGE_VESSELS, LARGE, ("mirror",)) else 1.4
 
     def held(self, child: str, kind: str, parent: str) -> float:
         """Of `child` being carried by `parent` in the manner `kind`."""
@@ -200,11 +200,11 @@ class Plausible:
             return self.held(child, "hangs_from", parent)
         if link.kind == "in":
             return self.within(child, parent)
-        slender = self.is_a(child, lexicon.SLENDER) and not self.is_a(child, lexicon.LONG)
+        slender = self.is_a(child, vessels.SLENDER) and not self.is_a(child, lexicon.LONG)
         if link.says == "across" and self.hollow(parent) and slender:
             # "A spoon across a bowl"; a plank lies across two things.
             return 0.0
-        if link.said == "over" and self.is_a(child, lexicon.COVERS):
+        if link.said == "over" and self.is_a(child, vessels.COVERS):
             return min(self.on(child, parent), 0.3)
         if link.kind == "on":
             return self.on(child, parent)
@@ -216,7 +216,7 @@ class Plausible:
             return _NEUTRAL
         if link.manner in ("flank", "surround"):
             return self.beside(child, parent)
-        if link.said == "over" and self.is_a(child, lexicon.COVERS):
+        if link.said == "over" and self.is_a(child, vessels.COVERS):
             return 0.0
         if link.kind == "on":
             return self.on(child, parent)
@@ -229,7 +229,7 @@ class Plausible:
         if self.floor(child):
             return 0.7
         opens = self.hollow(parent) or self.closet(parent)
-        opens = opens or self.is_a(parent, tuple(lexicon.OPENED), lexicon.HOLDERS)
+        opens = opens or self.is_a(parent, tuple(vessels.OPENED), vessels.HOLDERS)
         inside = self.within(child, parent) if opens else 9.0
         cost = min(inside, self.on(child, parent) + (1.0 if self.hollow(parent) else 0.0))
         if link.manner == "hold":

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -51,8 +51,8 @@ def _behind_place(chunks: Sequence[Chunk], said: Modifiers, nouns: Nouns) -> lis
         # "a mug next to a glass upside down"
         return None
     below, lead = chunks[last].named, chunks[subject[-1]].named
-    vessel = nouns.of_class(below.noun, lexicon.HOLLOW) and place.relation.kind == "on"
-    rolls = lead.kind == "object" and not nouns.of_class(lead.noun, lexicon.HOLLOW)
+    vessel = nouns.of_class(below.noun, vessels.HOLLOW) and place.relation.kind == "on"
+    rolls = lead.kind == "object" and not nouns.of_class(lead.noun, vessels.HOLLOW)
     if vessel and not comma and (rolls or said.postures[0].lower().startswith(_PARTICIPLES)):
         # "A ball lies on a bowl turned upside down", where nothing stands but over its foot.
         return None

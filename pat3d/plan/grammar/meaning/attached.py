@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.entities import Edge, Item
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.sizes import too_large
 
@@ -88,7 +88,7 @@ def bears(world: World, below: Item, above: Item) -> bool:
 
 def crowding(world: World, children: Sequence[Item], parent: Item) -> float:
     """What it costs that `children` are on `parent`: of "a lamp, a cup and a phone on a tripod" the phone alone is."""
-    broad = {item.group for item in children if not world.is_a(item, lexicon.SLENDER)}
+    broad = {item.group for item in children if not world.is_a(item, vessels.SLENDER)}
     return 1.5 if len(broad) > 1 and world.is_a(parent, _FOR_ONE) else 0.0
 
 

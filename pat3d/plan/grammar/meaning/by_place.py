@@ -67,7 +67,7 @@ class ByPlace(Further):
             line_up(self._world, item)
         return [item]
 
-    def _other_of_two(self, at: int, phrase: Phrase) -> list[Item]:
+    def _other_of_two(self, at: int) -> list[Item]:
         """What "the other" at chunk `at` is of two of a kind, of which one was spoken of last: of mugs, and no spoon.
 
         "Put the red mug on the shelf and the spoon in the other."

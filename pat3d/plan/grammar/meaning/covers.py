@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.meaning.entities import Edge, Item
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import vessels
 from pat3d.plan.grammar.words.modifiers import read_modifiers
 from pat3d.plan.grammar.words.postures import is_held, kind_of, token_text
 from pat3d.plan.grammar.words.sizes import extents
@@ -27,7 +27,7 @@ def may_cover(world: World, vessel: Item, item: Item, *, beside: int = 1) -> boo
     """
     said = (*vessel.group.modifiers.postures, *vessel.told.postures)
     other = any(kind_of(posture) != "upside_down" or not is_held(posture, lies=False) for posture in said)
-    if other or not world.is_a(vessel, lexicon.COVERS) or world.is_table(item):
+    if other or not world.is_a(vessel, vessels.COVERS) or world.is_table(item):
         return False
     outer, inner = (extents(world.noun(each)) for each in (vessel, item))
     if len(outer) != 3 or len(inner) != 3:
@@ -57,7 +57,7 @@ def settle(world: World) -> None:
     ]
     for child, below in dict.fromkeys((*wished, *turned)):
         noun = world.noun(below)
-        if not world.is_a(child, lexicon.COVERS) or world.likely.level(noun) or world.likely.hollow(noun):
+        if not world.is_a(child, vessels.COVERS) or world.likely.level(noun) or world.likely.hollow(noun):
             continue
         several = sum(one is child for one, _ in wished) > max(1, sum(other is below for _, other in wished))
         if not several and (child, below) in wished and not _together(world, child, below):
@@ -103,7 +103,7 @@ def _turned_over(item: Item) -> bool:
 
 
 def _turn_over(world: World, item: Item) -> None:
-    if not _turned_over(item) and not world.is_a(item, lexicon.OPEN_BELOW):
+    if not _turned_over(item) and not world.is_a(item, vessels.OPEN_BELOW):
         item.told = item.told.marked_as(read_modifiers([token_text("upside down")]))
 
 

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from typing import Literal
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.meaning.counting import multiply, recount
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.objects import multiply, recount
-from pat3d.plan.grammar.meaning.relating import Relating
+from pat3d.plan.grammar.meaning.had import Having
 from pat3d.plan.grammar.meaning.world import UNUSUAL, World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
 from pat3d.scene.relations import SUPPORT_KINDS
 
@@ -105,7 +105,7 @@ def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> 
     several = len(world.tops(owners))
     for group in _groups(children):
         if group.phrase.plural and not group.counted and group.height == 1:
-            one = world.is_a(group.items[0], lexicon.ON_RIMS, lexicon.BENEATH_CUPS)
+            one = world.is_a(group.items[0], vessels.ON_RIMS, lexicon.BENEATH_CUPS)
             recount(world, group, several * (1 if one else max(2, -(-len(group.items) // several))))
             group.multiplied = True
             world.note(f'"{group.words}": {len(group.items)} assumed.')
@@ -114,7 +114,7 @@ def for_each(world: World, owners: Sequence[Item], children: Sequence[Item]) -> 
     return all_like(children)
 
 
-def hand_out(relating: Relating, link: Link, owners: Sequence[Item], children: Sequence[Item], how: Share) -> bool:
+def hand_out(relating: Having, link: Link, owners: Sequence[Item], children: Sequence[Item], how: Share) -> bool:
     """Relate `children`, had "together" or "in turn", to their `owners`; False where they are not had so."""
     world = relating.world
     if how == "together":
@@ -143,14 +143,14 @@ def _unnumbered(groups: Sequence[Group]) -> bool:
 
 
 def _dishes(world: World, owner: Item) -> bool:
-    return world.is_a(owner, lexicon.HOLLOW, lexicon.DISHES) or world.flat(owner)
+    return world.is_a(owner, vessels.HOLLOW, lexicon.DISHES) or world.flat(owner)
 
 
 def _lies_in(world: World, owner: Item, child: Item) -> bool:
     """Whether of "two plates with a bun" one is on each for a person, and not of "two chairs with a table"."""
     if world.on_floor(child) or world.is_a(owner, lexicon.DEVICES):
         return False
-    own = world.is_a(child, lexicon.ON_RIMS, lexicon.BENEATH_CUPS, ("plant",))
+    own = world.is_a(child, vessels.ON_RIMS, lexicon.BENEATH_CUPS, ("plant",))
     return own or world.likely.held(world.noun(child), world.containment(owner), world.noun(owner)) <= UNUSUAL
 
 

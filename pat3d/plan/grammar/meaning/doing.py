@@ -11,24 +11,23 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.meaning.account import holds_already, learned
 from pat3d.plan.grammar.meaning.attached import beside_each_other, fits, has_room
 from pat3d.plan.grammar.meaning.contradictions import refuse_goal
+from pat3d.plan.grammar.meaning.counting import multiply
 from pat3d.plan.grammar.meaning.distribution import share
 from pat3d.plan.grammar.meaning.entities import Item, Step
-from pat3d.plan.grammar.meaning.objects import Maker, multiply
-from pat3d.plan.grammar.meaning.placing import Placing
+from pat3d.plan.grammar.meaning.everything import Everything
+from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.same_colour import by_colour
 from pat3d.plan.grammar.meaning.tiers import put_on_tier, tier_of
 from pat3d.plan.grammar.meaning.undone import turn_as_found, unstacks
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import SHUTTING, Clause
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
-from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _SLIDING = frozenset({"slide", "push", "drag", "pull", "nudge", "shove", "shift", "roll", "sweep"})
 """Verbs that leave a thing on what it is on."""
 _TAKING_OUT = frozenset({"remove", "get", "take", "retrieve", "grab", "fetch", "pick", "move", "bring", "transfer"})
-_BUT = re.compile(r"\b(?:but|except|excluding|save|apart from|other than)\b")
 _SIDEWAYS = re.compile(r"\bto the (?:left|right)(?: (?:on|along|across|over|and|then|by)\b|[,.;]|$)")
 _OWN = re.compile(r"\b(?:its|their) own\b|\bof (?:its|their) own\b", re.IGNORECASE)
 _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wall", "walls", "ceiling", "door",
@@ -38,21 +37,13 @@ _STRUCTURES = frozenset({"window", "windows", "windowsill", "sill", "ledge", "wa
 _PARTS = lexicon.ENDS | {"back", "rear", "front", "middle", "center", "centre"}  # of what a thing is slid along
 
 
-class Doing(Placing):
+class Doing(Everything):
     """Adds steps to the world."""
 
     def __init__(self, world: World, chunks: Sequence[Chunk], maker: Maker, clause: Clause) -> None:
-        super().__init__(world, chunks, maker)
-        self._clause = clause
-        if _BUT.search(clause.said.lower()):
-            # "Put everything but the cup in the box", where the cup was named just before.
-            self._said.left = list(world.subject)
-        self._handled: set[int] = set()
-        """Phrases for everything that were put somewhere."""
+        super().__init__(world, chunks, maker, clause)
         self._on_tiers: set[int] = set()
         """Chunks that speak of the tier that something is on."""
-        self._from: list[Item] = []
-        """What everything that is moved is on before."""
 
     def _note_goal(self, facts: Sequence[tuple]) -> None:
         """Say that "on the tray to the left of the bowl" is read as the tray's place, and "on the base" as no place."""
@@ -200,8 +191,6 @@ class Doing(Placing):
                 apiece = share(self._world, link, parents, children, all_of=of_all, having=False) == "each"
                 if self._said.speaks_of_each(parent_heads) or (of_all and apiece and link.kind in SUPPORT_KINDS):
                     children = multiply(self._world, children, len(parents))
-                if self._clause.verb == "hang" and link.kind == "on":
-                    link = Link(kind="hangs_from")
                 if self._clause.verb == "lean" and link.manner == "place" and link.kind in ("on", "next_to"):
                     link = Link(kind="next_to", says="leaning_against")
                 if len(parent_heads) != 1 or not self._on_tier(children, parent_heads[0], parents):
@@ -210,7 +199,7 @@ class Doing(Placing):
                 meant = "." if goes_on else '; with "the" before what is moved it is a task.'
                 self._world.note(f'"{self._clause.said}" is read as the scene to make{meant}')
             return
-        opened = parents and self._world.is_a(parents[0], tuple(lexicon.OPENED), lexicon.SHUT, lexicon.CLOSED)
+        opened = parents and self._world.is_a(parents[0], tuple(vessels.OPENED), vessels.SHUT, vessels.CLOSED)
         # "Return the pan to the stove": onto it.
         opened = opened and (self._world.houses(parents[0]) or not self._world.is_a(parents[0], ("stove",)))
         level = bool(parents) and self._world.likely.level(self._world.noun(parents[0]))
@@ -347,10 +336,10 @@ class Doing(Placing):
     def _may_hold(self, holder: Item, items: Sequence[Item]) -> bool:
         """Whether `holder` is of what things are in, and `items`, which were not told of before, are nowhere yet."""
         world = self._world
-        holds = world.likely.hollow(world.noun(holder)) or world.is_a(holder, tuple(lexicon.OPENED), lexicon.CLOSED)
+        holds = world.likely.hollow(world.noun(holder)) or world.is_a(holder, tuple(vessels.OPENED), vessels.CLOSED)
         holds = holds or world.likely.closet(world.noun(holder))
         new = all(item.group not in self._said.before and item is not holder for item in items)
-        new = new and not any(world.is_a(item, lexicon.ON_RIMS, lexicon.FLOOR) for item in items)
+        new = new and not any(world.is_a(item, vessels.ON_RIMS, lexicon.FLOOR) for item in items)
         return holds and new and all(world.support(item) is None for item in items)
 
     def _step(self, children: list[Item], link: Link | None, parents: list[Item], part: str = "") -> None:
@@ -367,44 +356,6 @@ class Doing(Placing):
         said, verb, items, goal = self._clause.said, self._clause.verb, tuple(children), tuple(parents)
         step = Step(manner=manner, said=said, verb=verb, part=part, items=items, link=link, goal=goal)
         self._world.steps.append(step)
-
-    def _is_items(self, heads: Sequence[int]) -> bool:
-        """Whether one of `heads` is "everything" or "the things"."""
-        phrases = (self._chunks[head].phrase for head in heads)
-        return any(phrase is not None and phrase.kind == "items" for phrase in phrases)
-
-    def _everything(self, heads: Sequence[int], goal: list[Item]) -> list[Item]:
-        """What "everything" at `heads` is that is moved to `goal`: all that is there, or is on what is said with it."""
-        world = self._world
-        said = [self._chunks[head].named for head in heads]
-        every = all(phrase.words.lower().startswith(("everything", "all", "what")) for phrase in said)
-        plain = every and all(phrase.modifiers == NO_MODIFIERS for phrase in said)
-        if not plain or not self._is_items(heads) or self._said.ref_all(heads):
-            return []
-        meant = [item for item in world.items() if item not in (*goal, *self._said.left) and not world.on_floor(item)]
-        if self._from:
-            meant = [item for item in meant if world.support(item) in self._from]
-        meant = [item for item in meant if world.support(item) not in meant]
-        if meant:
-            self._handled |= set(heads)
-            self._said.known.update(dict.fromkeys(heads, meant))
-        return meant
-
-    def _of_everything(self, heads: Sequence[int], link: Link, parents: list[Item]) -> bool:
-        """Read "Everything is on a table": all that is not yet carried."""
-        world = self._world
-        if not self._is_items(heads):
-            return False
-        if self._clause.manner is not None:
-            # "Move everything on the table": what was there before.
-            self._from += parents
-            return any(world.support(item) in parents for item in world.items())
-        free = [item for item in world.items() if world.support(item) is None and item not in parents]
-        free = [item for item in free if not world.on_floor(item)]
-        if free:
-            self._handled |= set(heads)
-            self._relating.relate(free, link, parents)
-        return bool(free)
 
     def _on_tier(self, children: list[Item], head: int, owners: list[Item]) -> bool:
         """Whether chunk `head` speaks of a tier of `owners`, on which `children` are put then."""

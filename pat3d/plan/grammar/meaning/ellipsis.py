@@ -12,7 +12,7 @@ from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.likes import likes_named, with_noun
 from pat3d.plan.grammar.meaning.ones import paralleled
 from pat3d.plan.grammar.meaning.parallels import told_alike
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -34,7 +34,7 @@ def completed(chunks: Sequence[Chunk], nouns: Nouns, known: Collection[Phrase], 
 
     `known` are the phrases of what was named before them; `doubts` takes notes of what is a guess.
     """
-    told = _from_below(_described(_gapped(_full(_one_more(chunks, known, nouns)))))
+    told = _described(_gapped(_full(_one_more(chunks, known, nouns))))
     told = likes_named(paralleled(told, nouns, known), nouns, known)
     return _towers(_levelled(_alike(told_alike(_with_nouns(in_the_whole(told), nouns), nouns, known), nouns, doubts)))
 
@@ -191,7 +191,7 @@ def _made_alike(one: Phrase, other: Phrase, nouns: Nouns) -> bool:
     named = [one.noun, other.noun]
     if any(nouns.of_class(noun, _SOFT) for noun in named):
         return False
-    table = (lexicon.HOLLOW, lexicon.DISHES, lexicon.BOWLS, lexicon.NARROW, lexicon.SLENDER)
+    table = (vessels.HOLLOW, lexicon.DISHES, vessels.BOWLS, vessels.NARROW, vessels.SLENDER)
     ware = all(any(nouns.of_class(noun, each) for each in table) for noun in named)
     return ware or all(nouns.of_class(noun, lexicon.FLOOR) for noun in named)
 
@@ -199,32 +199,6 @@ def _made_alike(one: Phrase, other: Phrase, nouns: Nouns) -> bool:
 def _the_one(phrase: Phrase | None) -> bool:
     headless = phrase is not None and phrase.kind == "pieces" and phrase.definite and phrase.modifiers == NO_MODIFIERS
     return headless and phrase.words.lower() in ("the one", "the ones")  # type: ignore[union-attr]
-
-
-def _from_below(chunks: list[Chunk]) -> list[Chunk]:
-    """`chunks` with "red at the bottom, blue in the middle and green on top" as "red, blue and green"."""
-    made: list[Chunk] = []
-    at = 0
-    while at < len(chunks):
-        levels: list[tuple[int, Phrase]] = []
-        after = at
-        while after < len(chunks) and (phrase := chunks[after].phrase) is not None and _colour_alone(phrase):
-            level, size = _level(chunks, after + 1)
-            if not size:
-                break
-            levels.append((level, phrase))
-            after += 1 + size
-            after += after < len(chunks) and chunks[after].kind == "joint"
-        if len(levels) > 1:
-            ordered = [phrase for _, phrase in sorted(levels, key=lambda each: each[0])]
-            colours = tuple(colour for phrase in ordered for colour in phrase.modifiers.colours)
-            whole = replace(ordered[0], modifiers=replace(ordered[0].modifiers, colours=colours))
-            made.append(Chunk(kind="noun", text=whole.words, phrase=whole))
-            at = after
-        else:
-            made.append(chunks[at])
-            at += 1
-    return made
 
 
 def _level(chunks: Sequence[Chunk], at: int) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from pat3d.plan.grammar.meaning import apart, arranging, attached, covers, order
 from pat3d.plan.grammar.meaning.entities import Edge, Group, Item, Sided
 from pat3d.plan.grammar.meaning.undone import open_or_shut
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.lexing import normalise, singulars, tokenise
 from pat3d.plan.grammar.words.measures import LARGEST, SMALLEST
 from pat3d.plan.grammar.words.modifiers import Modifiers
@@ -95,7 +95,7 @@ def finish(prompt: str, world: World, nouns: Nouns) -> tuple[ScenePlan, dict[Ite
 
 def _widen_bowls(world: World, nouns: Nouns) -> None:
     """Make a bowl that holds fruit or more than two things a wide one."""
-    for narrow, wide in lexicon.WIDER.items():
+    for narrow, wide in vessels.WIDER.items():
         noun = nouns.resolve(wide)
         for group in world.groups:
             if noun is None or group.noun != nouns.resolve(narrow) or not nouns.own(group.noun):
@@ -326,7 +326,7 @@ def _postures(world: World, names: dict[Item, str]) -> list[Posture]:
             kind, held = kind_of(said), is_held(said, lies=world.is_a(item, lexicon.LYING))
             edge = world.supports.get(item)
             racked = edge is not None and edge.kind == "in" and world.is_a(edge.parent, ("dish rack",))
-            if racked and stands_on_edge(said) and world.is_a(item, lexicon.RACKED):
+            if racked and stands_on_edge(said) and world.is_a(item, vessels.RACKED):
                 # Between its pegs they stand in any case.
                 continue
             if kind in ("upright", "on_its_side") and stands_on_edge(said) and world.is_a(item, lexicon.ON_EDGE):

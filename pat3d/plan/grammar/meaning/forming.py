@@ -6,10 +6,11 @@ from collections.abc import Sequence
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.meaning import arranging
+from pat3d.plan.grammar.meaning.counting import recount
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.objects import Maker, recount
+from pat3d.plan.grammar.meaning.had import Having
+from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.references import References
-from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.words.shapes import grid_rows
 
@@ -24,7 +25,7 @@ class Forming:
         self._world = world
         self._chunks = chunks
         self._maker = maker
-        self._relating = Relating(world)
+        self._relating = Having(world)
         self._said = References(world, chunks, maker, self._relating)
         self._landmarks: dict[int, tuple[list[Item], bool]] = {}
         """What the sentence has said a side of, by the relation that says it."""
@@ -88,8 +89,6 @@ class Forming:
             world.arrange(kind, items, (), f'"{groups[0].words}" {chunk.text.replace("_", " ")} each other')
         elif chunk.text == "circle":
             world.arrange("circle", items, self._ringed(items), f'"{groups[0].words}" in a circle')
-        elif chunk.text == "facing":
-            world.arrange("facing", items, (), f'"{groups[0].words}" facing each other')
         elif chunk.text == "beside":
             for left, right in zip(items, items[1:], strict=False):
                 world.beside([right], "next_to", [left])

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.tiers import is_tier
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import Clause
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import INSIDE, Link
 
 _WALLS = frozenset({"wall", "walls", "ceiling"})
@@ -21,6 +21,9 @@ _BASINS = ("sink", "bathtub", "toilet")
 _ABOUT_BASINS = ("mirror", "hair dryer", "towel rack", "tile", "picture frame", "clock", "lamp", "plant",
                  "potted plant", "cabinet", "shelf", "scale", "light bulb", "painting")  # fmt: skip
 """What stands or hangs near a basin, and is never in it unless that is said."""
+_FINDING = frozenset({"open", "close", "shut", "go", "navigate", "walk", "touch", "reach", "avoid", "check", "inspect",
+    "ignore", "use", "give", "clear", "tidy", "serve", "turn", "rotate", "flip", "tilt"})  # fmt: skip
+"""Verbs after which "with" tells which thing is meant, and not what it is done with."""
 
 
 class Holding(Doing):
@@ -127,9 +130,9 @@ class Holding(Doing):
             return True
         told = [other for one, other in self._said.related if head in one]
         places = {self._chunks[each].named.head for other in told for each in other}
-        if self._world.is_a(owner, lexicon.SHELVES, lexicon.SHUT):
+        if self._world.is_a(owner, lexicon.SHELVES, vessels.SHUT):
             return False
-        stands = self._world.on_floor(owner) and not self._world.is_a(owner, lexicon.HOLLOW)
+        stands = self._world.on_floor(owner) and not self._world.is_a(owner, vessels.HOLLOW)
         return bool(places & _WALLS) or (stands and bool(places & {"floor", "ground"}))
 
     def _on_no_wall(self, items: list[Item]) -> list[Item]:
@@ -143,3 +146,18 @@ class Holding(Doing):
         """Whether `fact` has what something is with on both sides: "a nightstand with a lamp on each side of it"."""
         held = {head for other in facts if other[0] == "have" for head in other[3]}
         return fact[0] == "rel" and self._chunks[fact[1]].relation.manner == "sides" and held >= {*fact[2]}
+
+    def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
+        """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
+        if not all(head in self._said.bound for head in parent_heads):
+            return False
+        owners = [inner for head in parent_heads for inner in self._said.bound[head]]
+        links = [chunk.link for chunk in self._chunks[max(owners) : at]]
+        return any(link is not None and link.finite and link.inverse for link in links)
+
+    def _means(self, fact: tuple) -> bool:
+        """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""
+        doing = self._clause.manner == "other" and self._clause.verb not in _FINDING
+        link = self._chunks[fact[1]].relation if doing and fact[0] == "have" else None
+        things = all(self._chunks[head].named.kind == "object" for head in fact[3]) if link is not None else False
+        return link is not None and link.manner == "with" and link.kind is None and things

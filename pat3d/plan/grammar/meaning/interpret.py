@@ -9,14 +9,14 @@ from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.meaning import apart
 from pat3d.plan.grammar.meaning.account import miscounted, words_left
 from pat3d.plan.grammar.meaning.contradictions import refuse_own
+from pat3d.plan.grammar.meaning.counting import multiply, recount, tell_colours
 from pat3d.plan.grammar.meaning.described import compared, describe, tell
 from pat3d.plan.grammar.meaning.distribution import as_many, for_each, on_top_of_both, share
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.holding import Holding
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES, position, ranked
-from pat3d.plan.grammar.meaning.objects import multiply, recount, tell_colours
 from pat3d.plan.grammar.parsing.chart import Node
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import ACROSS, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, Modifiers
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -27,9 +27,6 @@ _TWICE = 1.5
 """What it costs where a list names one thing twice."""
 _COUNTING = ("rows", "stacks", "stack", "tower")
 """Forms that may say how many there are, and so are read before all relations."""
-_FINDING = frozenset({"open", "close", "shut", "go", "navigate", "walk", "touch", "reach", "avoid", "check", "inspect",
-    "ignore", "use", "give", "clear", "tidy", "serve", "turn", "rotate", "flip", "tilt"})  # fmt: skip
-"""Verbs after which "with" tells which thing is meant, and not what it is done with."""
 _ROLLING = frozenset({"roll", "squeeze", "bounce", "drive", "steer", "wheel", "spin"})
 """Verbs by which a thing comes to be beside another."""
 
@@ -292,12 +289,12 @@ class Interpreter(Holding):
         loose = group.phrase.plural and not group.counted and len(children) > 1 and len(parents) > 1
         if loose and link.kind in SUPPORT_KINDS and all(child.group is group for child in children):
             # "Two pots with plants in them": as many for each; of what closes a pot one.
-            most = len(parents) if self._world.is_a(children[0], lexicon.ON_RIMS) else len(children)
+            most = len(parents) if self._world.is_a(children[0], vessels.ON_RIMS) else len(children)
             recount(self._world, group, -(-most // len(parents)) * len(parents))
             children = list(group.items)
         if link.kind == "on" and not link.finite and self._world.is_a(parents[0], lexicon.BENEATH_CUPS):
             # "A teapot and two cups on saucers": the cups are.
-            children = [item for item in children if self._world.is_a(item, lexicon.NARROW)] or children
+            children = [item for item in children if self._world.is_a(item, vessels.NARROW)] or children
         children = self._on_no_wall(children) if link.kind == "on" and self._world.is_table(parents[0]) else children
         parents = as_many(self._world, link, parents, children)
         having = self._is_had(at, parent_heads)
@@ -372,14 +369,6 @@ class Interpreter(Holding):
         set_off = len(heads) == 2 and any(chunk.text == ", and" for chunk in between)
         return len(heads) > 1 and first != "both" and (told or set_off)
 
-    def _is_had(self, at: int, parent_heads: Sequence[int]) -> bool:
-        """Whether chunk `at` says where what its parents have is: "both plates have an apple on them"."""
-        if not all(head in self._said.bound for head in parent_heads):
-            return False
-        owners = [inner for head in parent_heads for inner in self._said.bound[head]]
-        links = [chunk.link for chunk in self._chunks[max(owners) : at]]
-        return any(link is not None and link.finite and link.inverse for link in links)
-
     def _note_mate(self, child_heads: Sequence[int], parent_heads: Sequence[int], carrier: Item) -> None:
         """Say that "beside it" of "a tray with a cup and a spoon beside it" may be beside the cup."""
         owners = {*self._said.bound.get(parent_heads[0], ())}
@@ -398,10 +387,3 @@ class Interpreter(Holding):
         phrase = self._chunks[head].named
         told = phrase.some or bool(phrase.superlative != NO_MODIFIERS)
         return list(children[0].group.items) if told and len(children) == (phrase.some or 1) else children
-
-    def _means(self, fact: tuple) -> bool:
-        """Whether `fact` says what something is done with, and not what has it: "cover the pot with a plate"."""
-        doing = self._clause.manner == "other" and self._clause.verb not in _FINDING
-        link = self._chunks[fact[1]].relation if doing and fact[0] == "have" else None
-        things = all(self._chunks[head].named.kind == "object" for head in fact[3]) if link is not None else False
-        return link is not None and link.manner == "with" and link.kind is None and things

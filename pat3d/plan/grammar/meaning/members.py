@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.by_place import ByPlace
+from pat3d.plan.grammar.meaning.counting import recount, tell_colours
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.likes import SHAPES, measured
@@ -20,9 +21,8 @@ from pat3d.plan.grammar.meaning.matching import (
     position,
     same_noun,
 )
-from pat3d.plan.grammar.meaning.objects import recount, tell_colours
 from pat3d.plan.grammar.meaning.unlike import one_of_unlike
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS, TONES
 
 _APART = 0.7
@@ -125,7 +125,7 @@ class Members(ByPlace):
             link, named = self._chunks[at - 1].link if at else None, single or before
             # "A crate is on a pallet. Inside that is a jar."
             inside = link is not None and link.kind == "in"
-            hollow = [one for one in named if inside and world.is_a(one[0], lexicon.HOLLOW, lexicon.HOLDERS)]
+            hollow = [one for one in named if inside and world.is_a(one[0], vessels.HOLLOW, vessels.HOLDERS)]
             return next(iter(hollow or named), [])
         together = words == NO_MODIFIERS and not any(head < at for head in self.known)
         if together and phrase.definite and phrase.count == len(world.together) > 1:
@@ -202,10 +202,6 @@ class Members(ByPlace):
                 # "A fork left of each plate and a knife right of each": of each plate.
                 subject = self.known[again[-1]]
             subject = list(plural[0].items) if plural else subject
-            several = [group for group in reversed(world.groups) if len(group.items) > 1 and not group.replaced]
-            if len(subject) == 1 == len(subject[0].group.items) and several:
-                # "A bench with three cans on it. Behind each lies a screw.": behind each can.
-                return list(several[0].items)
             return list(subject[0].group.items) if len(subject) == 1 else self._that_have(at, subject)
         if rest:
             # "One of the bowls holds keys and the other one holds nuts": of the bowls.
@@ -218,7 +214,7 @@ class Members(ByPlace):
         if rest and (left := self._left_over(at, phrase) or self._unplaced(groups, phrase)):
             return left
         single = phrase.words.lower() in ("the other", "the other one")
-        if rest and single and (other := self._other_of_two(at, phrase)):
+        if rest and single and (other := self._other_of_two(at)):
             return other
         if rest and (told := self._untold(at, phrase)) is not None:
             return told
@@ -296,13 +292,6 @@ class Members(ByPlace):
     def _described(self, phrase: Phrase, groups: list[Group], count: int) -> list[Item]:
         """Members told by colour or size: "one red and one blue", "two of them yellow", "the larger one"."""
         words = phrase.modifiers
-        told = {words.size_word, *words.adjectives} & (_LARGER | _SMALLER)
-        if told and not phrase.definite and phrase.closing == "one" and not words.colours:
-            named = [self.known[head] for heads in self.clauses.values() for head in heads if self.known.get(head)]
-            first = named[0] if named else self._world.subject
-            if len(first) == 1 == len(first[0].group.items):
-                # "A bottle stands next to a sofa and a smaller one on a table": another bottle.
-                return self._one_like(first, phrase)
         wanted = len(self._world.items()) if phrase.closing == "ones" else 1
         for shape in {*measured(words).adjectives} & SHAPES if phrase.definite else ():
             # "A tall vase and a short vase, the shorter one"
@@ -380,5 +369,5 @@ class Members(ByPlace):
     def _alike(self, items: Sequence[Item]) -> bool:
         """Whether `items` are of one kind, or all of them vessels, so that what each has may be had by all."""
         return len({item.group.noun for item in items}) == 1 or all(
-            self._world.is_a(item, lexicon.HOLLOW) for item in items
+            self._world.is_a(item, vessels.HOLLOW) for item in items
         )

@@ -9,14 +9,14 @@ from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.plausible import LARGE, LEAFY
 from pat3d.plan.grammar.meaning.attached import has_room, put_carriers
+from pat3d.plan.grammar.meaning.counting import multiply
 from pat3d.plan.grammar.meaning.described import LEAVES, describe
 from pat3d.plan.grammar.meaning.entities import Item, Sided
 from pat3d.plan.grammar.meaning.forming import Forming
 from pat3d.plan.grammar.meaning.matching import LATERAL_SIDES
-from pat3d.plan.grammar.meaning.objects import multiply
 from pat3d.plan.grammar.meaning.tiers import has_tiers
 from pat3d.plan.grammar.meaning.world import UNUSUAL
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import read_modifiers
 from pat3d.plan.grammar.words.postures import token_text
@@ -284,10 +284,10 @@ class Placing(Forming):
         def within(item: Item) -> float:
             return world.likely.within(world.noun(child), world.noun(item))
 
-        if world.is_a(meant[0], tuple(lexicon.OPENED)) or within(meant[0]) < _HARDLY_IN:
+        if world.is_a(meant[0], tuple(vessels.OPENED)) or within(meant[0]) < _HARDLY_IN:
             return meant
         fit = [item for item in world.items() if item is not child and (
-            world.is_a(item, tuple(lexicon.OPENED))
+            world.is_a(item, tuple(vessels.OPENED))
             or ((world.likely.hollow(world.noun(item)) or world.likely.closet(world.noun(item)))
                 and within(item) < _HARDLY_IN)
         )]  # fmt: skip
@@ -347,7 +347,7 @@ class Placing(Forming):
         """Read "two cups, one of them on its head": of what has no head it says how it is turned."""
         own = phrase.kind == "part" and phrase.possessive and phrase.said in _ON_ITS
         likely, noun = self._world.likely, self._world.noun(parents[0])
-        headless = likely.level(noun) or likely.hollow(noun) or self._world.is_a(parents[0], lexicon.NARROW)
+        headless = likely.level(noun) or likely.hollow(noun) or self._world.is_a(parents[0], vessels.NARROW)
         if not own or not (headless or set(children) <= set(parents)):
             return False
         for item in children:

@@ -14,7 +14,7 @@ from pat3d.plan.grammar.meaning.objects import Maker
 from pat3d.plan.grammar.meaning.relating import Relating
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.rooms import ROOMS
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import INSIDE, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.words.number_words import ORDINALS
@@ -184,7 +184,7 @@ class Pronouns:
             about = next((each for each in before if each), [])
             if link is not None and link.kind in SUPPORT_KINDS and about and not (child or self._is_also(at)):
                 # "On the table is a plate. On it are two eggs": on the plate; but "is a laptop. On it is a mug".
-                bears = self._world.is_a(about[0], lexicon.DISHES, lexicon.HOLLOW)
+                bears = self._world.is_a(about[0], lexicon.DISHES, vessels.HOLLOW)
                 candidates.append((0.25 if bears else -0.4, world_front))
             else:
                 candidates.append((-0.4 if turned else 0.05, world_front))
@@ -326,7 +326,7 @@ class Pronouns:
             self._world.note(f'{read}; it may be "{under.group.words}".')
         about = next((each for each in before if each), best[1])
         aside = not child and link is not None and link.kind in SUPPORT_KINDS and not set(about) & set(best[1])
-        if aside and not plural and self._world.is_a(about[0], _BROAD, lexicon.LARGE_VESSELS):
+        if aside and not plural and self._world.is_a(about[0], _BROAD, vessels.LARGE_VESSELS):
             # "A dog lies in front of a sofa, and a ball is on it": few things lie on a dog, but one may.
             read, other_words = (each[0].group.words for each in (best[1], about))
             self._world.note(f'"{phrase.words}" (word {phrase.number}) is read as "{read}"; it may be "{other_words}".')
@@ -362,7 +362,7 @@ class Pronouns:
     def _owner_of(self, items: Sequence[Item], at: int) -> list[Item]:
         """What is named last before chunk `at` of what the lids `items` close, or what has "its saucer"."""
         world, own = self._world, any(item.group.phrase.possessive for item in items)
-        lids = bool(items) and all(world.is_a(item, lexicon.ON_RIMS) for item in items)
+        lids = bool(items) and all(world.is_a(item, vessels.ON_RIMS) for item in items)
         told = [each for key in sorted(self.known, reverse=True) if key < at for each in reversed(self.known[key])]
         told += [each for group in reversed(self._earlier) for each in reversed(group.items)]
         carriers = {*items, *(() if lids else (edge.parent for edge in world.supports.values()))}

@@ -7,12 +7,12 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.chunks import Chunk
 from pat3d.plan.grammar.chunking.phrases import Phrase
+from pat3d.plan.grammar.meaning.counting import forget_count
 from pat3d.plan.grammar.meaning.distribution import says_all
 from pat3d.plan.grammar.meaning.entities import Group, Item
 from pat3d.plan.grammar.meaning.kinds import called, of_kind
 from pat3d.plan.grammar.meaning.matching import ALONG, colours_of, line_up, position, same_head, same_noun, same_word
 from pat3d.plan.grammar.meaning.members import Members
-from pat3d.plan.grammar.meaning.objects import forget_count
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.lexing import singulars
 from pat3d.plan.grammar.words.links import Link

@@ -9,11 +9,11 @@ from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import LARGE
 from pat3d.plan.grammar.meaning.apart import set_apart
 from pat3d.plan.grammar.meaning.attached import bears, crowding, lids_beside, slip_under, with_its_carrier
+from pat3d.plan.grammar.meaning.counting import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.covers import may_cover
 from pat3d.plan.grammar.meaning.entities import Item, Sided
-from pat3d.plan.grammar.meaning.objects import forget_count, multiply, on_each_side, recount
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import DRAPED, Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.scene.relations import LATERAL_KINDS, OPPOSITE, RELATION_WORDS, SUPPORT_KINDS, LateralKind
@@ -22,8 +22,6 @@ _HALVES: dict[str, LateralKind] = {
     "left": "left_of", "right": "right_of", "back": "behind", "front": "in_front_of",
 }  # fmt: skip
 """What stands in for a half of what has no surface."""
-_HARDLY_CARRIED = 0.9
-"""Cost of being on what only hands would hold it on, see Plausible.on."""
 _NEIGHBOURS = 3
 """Things that one can stand next to."""
 _PAIRS = 30
@@ -97,10 +95,10 @@ class Relating:
                 link.says, children, parents, f"{said.format(where)}; it is placed {'on' if level else 'next to'} it"
             )
         elif link.manner in ("source", "goal") and link.kind != "next_to":
-            off = link.said == "off" and not world.is_a(parents[0], lexicon.RACKS, ("dish rack",))
-            lid = off or world.is_a(children[0], lexicon.ON_RIMS)
-            shut = world.is_a(parents[0], lexicon.SHUT) and (link.manner == "source" or link.kind == "in")
-            shut = shut or (link.kind == "in" and world.is_a(parents[0], lexicon.CLOSED))
+            off = link.said == "off" and not world.is_a(parents[0], vessels.RACKS, ("dish rack",))
+            lid = off or world.is_a(children[0], vessels.ON_RIMS)
+            shut = world.is_a(parents[0], vessels.SHUT) and (link.manner == "source" or link.kind == "in")
+            shut = shut or (link.kind == "in" and world.is_a(parents[0], vessels.CLOSED))
             housed = not (lid or off) and world.houses(parents[0]) and (shut or link.manner == "source")
             if not lid and shut and not housed:
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
@@ -118,21 +116,21 @@ class Relating:
             together = link.kind == "around" and len(children) > 2 and len({item.group for item in parents}) > 1
             if link.says == "circle" or together:
                 world.arrange("circle", children, parents, f"{said.format('in a circle around')}")
-            self._settle(children, parents)
+            self.settle(children, parents)
             lids_beside(world, children, parents[0])
             if link.kind == "around" and (together or (link.says == "circle" and len(parents) > 1)):
                 # A ring around several things is around none of them alone.
                 return
             if link.kind == "around":
-                parents = self._centre(children, parents)
+                parents = self.centre(children, parents)
             small = not world.on_floor(children[0]) and not world.is_a(children[0], lexicon.BY_A_SEAT, LARGE)
             table = world.is_table(parents[0]) and world.on_floor(parents[0])
             if link.kind == "next_to" and small and table and world.support(children[0]) is None:
                 world.note(f'{said.format("beside")}: it stands on the ground there; say "on" to have it on top.')
-            for landmarks in self._landmarks(children, link, parents, said, each=each):
+            for landmarks in self.landmarks(children, link, parents, said, each=each):
                 world.beside(children, link.kind, landmarks)  # type: ignore[arg-type]
 
-    def _landmarks(
+    def landmarks(
         self, children: list[Item], link: Link, parents: list[Item], said: str, *, each: bool
     ) -> list[list[Item]]:
         """What `children` stand beside, all of them for each: "behind two boxes" is behind the one and the other.
@@ -151,7 +149,7 @@ class Relating:
             return firsts if 1 < len(firsts) <= _NEIGHBOURS and len(own) == 1 else [parents]
         return [[place] for place in places]
 
-    def _centre(self, children: list[Item], parents: list[Item]) -> list[Item]:
+    def centre(self, children: list[Item], parents: list[Item]) -> list[Item]:
         """What `children` stand around: a ring of several things has one centre, as a note says."""
         several = len({item.group for item in children}) > 1 or len(children) < len(parents)
         if len(parents) == 1 or not several:
@@ -161,101 +159,7 @@ class Relating:
         self.world.note(f"not arranged: {around} around {inner} together; it is placed around the first")
         return parents[:1]
 
-    def hold(self, link: Link, owners: list[Item], children: list[Item]) -> None:
-        """Record what it means that `owners` have `children`."""
-        world, owner = self.world, owners[0]
-        self._settle(children, owners)
-        weak = link.manner == "with" and link.kind is None
-        odd = world.likely.on(world.noun(children[0]), world.noun(owner)) >= _HARDLY_CARRIED
-        if link.manner == "surround":
-            world.beside(children, "around", self._centre(children, owners))
-        elif world.is_a(owner, lexicon.HOOKED) and not world.on_floor(children[0]):
-            world.place(children, "hangs_from", owners, weak=weak)
-        elif (
-            link.manner == "hold"
-            and odd
-            and not world.has_inside(owner)
-            and not world.is_a(children[0], lexicon.ON_RIMS)
-        ):
-            # "A statue holding a cup"
-            said = f'"{owner.group.words}" holding "{children[0].group.words}"'
-            world.note(f"not arranged: {said}, which is placed next to it")
-            if (below := world.supports.get(owner)) is not None:
-                world.place(children, below.kind, [below.parent], weak=True)
-            world.beside(children, "next_to", owners)
-        elif weak and world.is_a(children[0], lexicon.SIDE_DISHES) and world.is_a(owner, lexicon.MAIN_DISHES):
-            self.accompany(children, owners)
-        elif weak and world.is_a(children[0], lexicon.BENEATH_CUPS) and world.is_a(owner, lexicon.NARROW):
-            world.place(owners, "on", children, weak=True)
-        elif weak and (
-            world.is_a(owner, lexicon.DEVICES)
-            or (world.is_a(owner, ("chair", "armchair", "sofa")) and world.is_a(children[0], ("lamp",)))
-        ):
-            # "A reading chair with a lamp": beside it.
-            self.accompany(children, owners)
-        elif world.is_a(owner, lexicon.RACKS):
-            world.place(children, "in", owners, weak=weak)
-        elif link.kind == "on" or world.is_a(children[0], lexicon.ON_RIMS):
-            placed = world.supports.get(children[0])
-            if link.said == "over":
-                world.over += _paired(children, owners)
-            if link.said == "over" and placed is not None:
-                # "An egg is covered by a bowl on a tray"
-                world.place(owners, placed.kind, [placed.parent])
-            else:
-                world.place(children, "on", owners, weak=weak)
-        elif (
-            weak
-            and world.is_a(children[0], lexicon.ON_HEAD)
-            and not world.flat(owner)
-            and not world.is_a(owner, lexicon.HOLLOW)
-        ):
-            world.place(children, "on", owners, weak=True)
-        elif weak and world.on_floor(children[0]) and not world.is_a(children[0], lexicon.SEATS[-4:]):
-            around = len(children) >= 3 and world.is_a(children[0], ("chair", "stool", "armchair"))
-            if around:
-                world.beside(children, "around", owners, weak=True)
-            else:
-                self.accompany(children, owners)
-        elif (
-            not weak
-            or world.is_a(owner, lexicon.HOLLOW, tuple(lexicon.OPENED))
-            or world.flat(owner)
-            or world.likely.on(world.noun(children[0]), world.noun(owner)) < 0.6
-        ):
-            housed = world.houses(owner) and self._belongs_inside(owner, children[0], weak=weak)
-            kind = "in" if housed else world.containment(owner)
-            world.place(children, kind, owners, weak=weak)
-            if not housed:
-                self._not_inside(owner, children[0], "on", weak=weak)
-        else:
-            self.accompany(children, owners)
-            self._not_inside(owner, children[0], "next to")
-
-    def accompany(self, children: list[Item], owners: list[Item]) -> None:
-        """`children` are next to the `owners` that they are only said to be with, until more is said."""
-        said = f'"{children[0].group.words}" {{}} "{owners[0].group.words}"'
-        for landmarks in self._landmarks(children, Link(kind="next_to"), owners, said, each=False):
-            self.world.beside(children, "next_to", landmarks, weak=True)
-
-    def _not_inside(self, owner: Item, child: Item, where: str, *, weak: bool = True) -> None:
-        """Say that what a closed thing or a holder is said to have does not stand inside."""
-        world = self.world
-        if self._belongs_inside(owner, child, weak=weak) and world.containment(owner) != "in":
-            said = f'"{child.group.words}" inside "{owner.group.words}"'
-            world.note(f"not arranged: {said}; it is placed {where} it")
-
-    def _belongs_inside(self, owner: Item, child: Item, *, weak: bool) -> bool:
-        """Whether what the closed thing or holder `owner` is said to have is inside of it."""
-        world = self.world
-        if world.on_floor(child) or world.is_a(child, lexicon.BY_A_SEAT):
-            return False
-        if world.houses(owner):
-            return not world.is_a(child, lexicon.NOT_IN_VESSEL)
-        shut = lexicon.SHUT if weak else ()
-        return world.is_a(owner, lexicon.CLOSED, shut, lexicon.HOLDERS) and owner.group.said != "stove"
-
-    def _settle(self, children: list[Item], parents: list[Item]) -> None:
+    def settle(self, children: list[Item], parents: list[Item]) -> None:
         """Let the counted mention win: "a basket of fruit" with "five fruits" in it holds five."""
         world = self.world
         cycle = children[0].group.cycle
@@ -270,25 +174,25 @@ class Relating:
     def _carried(self, children: list[Item], link: Link, parents: list[Item], said: str) -> None:
         world, kind = self.world, link.kind
         parent = parents[0]
-        if kind == "in" and not world.is_a(parent, lexicon.HOLLOW, tuple(lexicon.OPENED)) and not world.houses(parent):
-            if world.is_a(parent, lexicon.CLOSED, lexicon.SOLID):
+        if kind == "in" and not world.is_a(parent, vessels.HOLLOW, tuple(vessels.OPENED)) and not world.houses(parent):
+            if world.is_a(parent, vessels.CLOSED, lexicon.SOLID):
                 world.note(f"not arranged: {said.format('inside')}; it is placed on it")
                 kind = "on"
             elif world.on_floor(parent) or world.is_a(parent, lexicon.HOUSING):
                 kind = "on"
-                if world.is_a(parent, lexicon.SHUT):
+                if world.is_a(parent, vessels.SHUT):
                     world.note(f"not arranged: {said.format('inside')}; it is placed on it")
         elif kind == "on" and world.is_a(parent, lexicon.HOUSING):
             world.note(f"not arranged: {said.format('on')}; it is placed in it")
-        self._settle(children, parents)
+        self.settle(children, parents)
         self.cost += crowding(world, children, parent) if kind == "on" else 0.0
         if link.said == "over":
-            world.over += _paired(children, parents)
-        lies = world.is_a(children[0], lexicon.THIN, lexicon.COVERS, lexicon.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
+            world.over += paired(children, parents)
+        lies = world.is_a(children[0], lexicon.THIN, vessels.COVERS, vessels.ON_RIMS, lexicon.LONG, lexicon.ON_HEAD)
         hung = world.is_a(parent, lexicon.HOOKED)
         if link.said in DRAPED and not hung:
             world.note(f"not arranged: {said.format(link.said)}; it is placed on it")
-        if link.said == "over" and not (lies or hung) and not world.is_a(parent, lexicon.RACKS, lexicon.HOLLOW):
+        if link.said == "over" and not (lies or hung) and not world.is_a(parent, vessels.RACKS, vessels.HOLLOW):
             world.note(f"not arranged: {said.format('over')}; it is placed on it")
         if link.says == "above":
             world.arrange("above", children, parents, f"{said.format('above')}; it is placed on it")
@@ -301,7 +205,7 @@ class Relating:
                     f'"{children[0].group.words}" cannot be in {len(tops)} things at once. Say "in one of ...", or '
                     "name one."
                 )
-            over = link.said == "over" and world.is_a(children[0], lexicon.COVERS)
+            over = link.said == "over" and world.is_a(children[0], vessels.COVERS)
             if exact and len(world.bases(children)) == 1 and not over:
                 names = " and ".join(dict.fromkeys(f'"{item.group.words}"' for item in parents))
                 what = "across" if link.says == "across" else "on"
@@ -309,7 +213,7 @@ class Relating:
                 like = world.is_a(children[0], lexicon.LONG) or world.noun(children[0]) == world.noun(parent)
                 world.arrange("across", children, tops, note, link.says == "across" or like)
                 self.cost += 0.3
-        elif link.says == "across" and world.is_a(parent, lexicon.HOLLOW):
+        elif link.says == "across" and world.is_a(parent, vessels.HOLLOW):
             note = f'"{children[0].group.words}" across "{parent.group.words}"; it is placed on it'
             world.arrange("across", children, parents, note, len(children) == len(parents) == 1)
         world.place(children, kind or "on", parents)
@@ -410,11 +314,11 @@ class Relating:
         else:
             words = f'"{children[0].group.words}" {{}} "{parent.group.words}"'
             alike = [item for item in parents if item.group is parent.group]
-            for landmarks in self._landmarks(children, Link(kind=_HALVES[side]), alike, words, each=each):
+            for landmarks in self.landmarks(children, Link(kind=_HALVES[side]), alike, words, each=each):
                 world.beside(children, _HALVES[side], landmarks)
         return None
 
 
-def _paired(one: Sequence[Item], other: Sequence[Item]) -> list[tuple[Item, Item]]:
+def paired(one: Sequence[Item], other: Sequence[Item]) -> list[tuple[Item, Item]]:
     """Each of `one` with its own of `other` where they are as many, else with all."""
     return list(zip(one, other, strict=True) if len(one) == len(other) else product(one, other))

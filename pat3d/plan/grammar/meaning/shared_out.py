@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.meaning.contrast import Contrast
+from pat3d.plan.grammar.meaning.counting import recount
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Group, Item
-from pat3d.plan.grammar.meaning.objects import recount
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import NO_MODIFIERS
 from pat3d.plan.grammar.words.number_words import is_number

@@ -13,7 +13,7 @@ from pat3d.plan.grammar.meaning.entities import Item, Step
 from pat3d.plan.grammar.meaning.kinds import KINDS
 from pat3d.plan.grammar.meaning.world import World
 from pat3d.plan.grammar.rewriting.instructions import VERBS, base_of
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.holders import FLAT, holds
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 from pat3d.scene.task_spec import STEPS, chain_of
@@ -174,7 +174,7 @@ def _otherwise(step: Step, world: World, names: Mapping[Item, str]) -> str:
     if noun.split()[-1] == world.noun(items[0]).split()[-1] or noun in FLAT:
         # "Put the small bowl on the large one", "put the egg on the pan"
         return ""
-    inside, closet = holds(noun), world.is_a(goal, lexicon.SHUT, lexicon.CLOSED)
+    inside, closet = holds(noun), world.is_a(goal, vessels.SHUT, vessels.CLOSED)
     shelf = world.likely.level(noun) or world.on_floor(goal)
     if link.kind == "in" and not inside and (closet or not shelf):
         return f"not arranged: {moved} inside {holder}; the task puts it on it"

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from pat3d.plan.grammar.meaning.described import tell
 from pat3d.plan.grammar.meaning.entities import Item
 from pat3d.plan.grammar.meaning.world import World
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.modifiers import Modifiers
 from pat3d.plan.grammar.words.vocabulary import Nouns
@@ -58,7 +58,7 @@ def open_or_shut(world: World, nouns: Nouns) -> None:
     holders += [item for step in world.steps if step.link and step.link.kind == "in" for item in step.goal]
     for holder in holders:
         group = holder.group
-        for closed, opened in (lexicon.OPENED | (lexicon.HOUSES if world.houses(holder) else {})).items():
+        for closed, opened in (vessels.OPENED | (lexicon.HOUSES if world.houses(holder) else {})).items():
             noun = nouns.resolve(opened)
             if noun and nouns.own(group.noun) and group.noun == nouns.resolve(closed):
                 group.noun = noun

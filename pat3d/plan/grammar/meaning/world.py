@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from pat3d.errors import PromptError
 from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.meaning.entities import Arranged, Edge, Group, Item, Sided, Step
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.shapes import carriers_in_pyramid
 from pat3d.plan.scene_plan import ArrangementKind
 from pat3d.scene.relations import LateralKind, RelationKind
@@ -140,7 +140,7 @@ class World:
 
     def flat(self, item: Item) -> bool:
         """Whether nothing can be in it."""
-        return not self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED)) and self.likely.level(self.noun(item))
+        return not self.is_a(item, vessels.HOLLOW, tuple(vessels.OPENED)) and self.likely.level(self.noun(item))
 
     def oddly_below(self, child: Item, parent: Item) -> bool:
         """Whether `parent` is a small thing that nobody puts the furniture `child` on."""
@@ -155,7 +155,7 @@ class World:
         """Whether it may carry something in it or on it: a vessel, a cupboard, a holder, a level top."""
         noun = self.noun(item)
         return (
-            self.is_a(item, lexicon.HOLLOW, tuple(lexicon.OPENED), lexicon.HOLDERS)
+            self.is_a(item, vessels.HOLLOW, tuple(vessels.OPENED), vessels.HOLDERS)
             or self.likely.closet(noun)
             or self.likely.level(noun)
         )
@@ -168,7 +168,7 @@ class World:
 
     def containment(self, parent: Item) -> RelationKind:
         """What "in", "with" and "holding" mean at `parent`: "in" where it is hollow, else "on"."""
-        return "in" if self.is_a(parent, lexicon.HOLLOW, lexicon.RACKS, tuple(lexicon.OPENED)) else "on"
+        return "in" if self.is_a(parent, vessels.HOLLOW, vessels.RACKS, tuple(vessels.OPENED)) else "on"
 
     # Stacks
 
@@ -280,7 +280,7 @@ class World:
         self.supports[child] = Edge(child=child, kind=kind, parent=parent, weak=weak)
         if not weak and kind == "on" and self.likely.on(self.noun(child), self.noun(parent)) >= HARDLY:
             self.note(f'"{child.group.words}" on "{parent.group.words}": it hardly stays there.')
-        hollow = kind == "in" and self.is_a(parent, lexicon.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
+        hollow = kind == "in" and self.is_a(parent, vessels.HOLLOW) and not self.is_a(child, ("plant", "potted plant"))
         if kind == "in" and not weak and not self.has_inside(parent):
             self.note(f'"{child.group.words}" in "{parent.group.words}": whether that has an inside is not known.')
         larger = parent.group.modifiers.scale > child.group.modifiers.scale

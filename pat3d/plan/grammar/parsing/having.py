@@ -5,8 +5,9 @@ from __future__ import annotations
 from pat3d.plan.grammar.chunking.plausible import USUAL
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.parsing.judging import HEADLESS, Judging
-from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, ON_RIMS, SLENDER, WORN
+from pat3d.plan.grammar.words.lexicon import DISHES, FIGURES, LEVEL, WORN
 from pat3d.plan.grammar.words.links import Link
+from pat3d.plan.grammar.words.vessels import ON_RIMS, SLENDER
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _OF_BACKGROUND = 0.6
@@ -233,9 +234,6 @@ class Having(Judging):
         owner = self._noun(owners[0])
         if not before or len(owners) > 1 or self._several(before[-1]):
             return ()
-        if all(self._likely.closes(self._noun(child), self._noun(before[-1])) for child in children):
-            # "A tray with a teapot, its lid beside it"
-            return (before[-1],)
         told = any(fact[0] == "place" and fact[2] == (before[-1],) for fact in own)
         bears = self._likely.is_a(owner, LEVEL, DISHES)
         natural = all(self._likely.on(self._noun(child), owner) < USUAL for child in children)

@@ -9,7 +9,7 @@ from pat3d.plan.grammar.chunking.phrases import Phrase
 from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.parsing.chart import Node
 from pat3d.plan.grammar.words import lexicon
-from pat3d.plan.grammar.words.lexicon import DEMONSTRATIVES, FIGURES, LEVEL, ON_RIMS, TELLING
+from pat3d.plan.grammar.words.lexicon import DEMONSTRATIVES, FIGURES, LEVEL, TELLING
 from pat3d.plan.grammar.words.links import Link
 from pat3d.plan.grammar.words.sizes import too_large
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
@@ -23,6 +23,8 @@ _CARRYING = 0.35
 """Cost of being on something below which that can carry it."""
 _HELD_BY_SUBJECT = 0.4
 """Cost of what a clause is about not being what is "holding" something at its end."""
+_HELD = 0.2
+"""Cost of holding something below which it is usual."""
 _HOLDING = ("holding", "containing", "carrying", "bearing")
 _HARDLY_IN = 1.0
 """Cost of being in something from which on that is not thought of."""
@@ -54,6 +56,11 @@ class Judging:
         phrases = (phrase for before in told if (phrase := self._chunks[before].phrase) is not None)
         named = {self._likely.fits(phrase) for phrase in phrases if phrase.kind == "object"}
         return named.pop() if len(named) == 1 else ""
+
+    def _both_places(self, outer: tuple[int, ...], nearer: tuple[int, ...]) -> float:
+        """Cost of `outer` not being beside `nearer`, which may stand on it."""
+        holds = min(self._likely.having(Link(manner="with"), self._noun(outer[0]), self._noun(head)) for head in nearer)
+        return 0.05 if holds < _HELD else 0.25
 
     def _again(self, head: int, facts: tuple[tuple, ...]) -> float:
         """The cost of a second support for what has one."""
@@ -173,9 +180,6 @@ class Judging:
         if within and not self._likely.hollow(self._noun(modifier.heads[0])) and self._may_hold(owner, within):
             # "A jar on a shelf with a nut in it"
             return 0.5
-        if not owner and any(self._likely.is_a(self._noun(fact[2][0]), ON_RIMS) for fact in carried):
-            # "Another one on a shelf with a lid on it"
-            return 0.7
         return 0.5 if cost < _NATURAL else 0.4 if cost < _CARRYING else 0.0
 
     def _holds_itself(self, named: Node, modifier: Node) -> float:

@@ -16,16 +16,12 @@ from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.parsing.chart import Node, Rule, parse, parts
 from pat3d.plan.grammar.parsing.judging import HEADLESS
 from pat3d.plan.grammar.parsing.listing import Listing
-from pat3d.plan.grammar.words.links import Link
 from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 _LEAVES = {
     "noun": "L", "rel": "R", "have": "H", "place": "A", "form": "F", "quality": "Q", "joint": "C", "clause": "X",
     "verb": "V", "there": "E", "which": "W",
 }  # fmt: skip
-
-_HELD = 0.2
-"""Cost of holding something below which it is usual."""
 
 _DISAGREES = 0.4
 """Cost of one thing of which a verb of several is said."""
@@ -372,11 +368,6 @@ class Grammar(Listing):
         cost = clause.cost + modifier.cost + self._arcs(link, clause.heads, modifier.heads)
         cost += 0.0 if comma else self._both_places(modifier.heads, nearer)
         return Node("S", modifier.start, cost, clause.heads, facts, "", clause.flags | {"twice"})
-
-    def _both_places(self, outer: tuple[int, ...], nearer: tuple[int, ...]) -> float:
-        """Cost of `outer` not being beside `nearer`, which may stand on it."""
-        holds = min(self._likely.having(Link(manner="with"), self._noun(outer[0]), self._noun(head)) for head in nearer)
-        return 0.05 if holds < _HELD else 0.25
 
     def _clause(self, joint: Node, clause: Node) -> Node:
         comma = 0.9 * any(fact[0] == "comma front" for fact in clause.facts)

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import FILLERS, known_verb
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
@@ -26,7 +26,7 @@ _NOBODY = lexicon.GREETINGS | lexicon.BACKGROUND | lexicon.NUMBERS.keys() | FILL
     "outside", "inside", "indoors", "outdoors", "upstairs", "downstairs", "there", "here", "nearby", "task",
 }  # fmt: skip
 """First words before a comma that are not spoken to."""
-_CARRYING = (lexicon.FLOOR, lexicon.LEVEL, lexicon.HOLLOW, lexicon.DISHES)
+_CARRYING = (lexicon.FLOOR, lexicon.LEVEL, vessels.HOLLOW, lexicon.DISHES)
 _LEADING = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
 _LABELS = frozenset({"task", "instruction", "command", "request", "order", "goal", "objective", "step", "mission"})
 _PICTURES = frozenset({"picture", "photo", "image", "photograph", "scene"})
@@ -96,7 +96,7 @@ def _endeared(tokens: Sequence[Token], nouns: Nouns) -> bool:
 def _without_name(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` without "hey robot," in front of what it is to do, and without ", robot" behind it."""
     words = [token.text for token in tokens]
-    at = _greeted(words, 0)
+    at = _greeted(words)
     named = at + (words[at] in _TOLD)
     end = named + (words[named] in (",", ":") and named > 0)
     hailed = bool(at) and words[0] in _HAILING and len(words) < at + 4
@@ -117,8 +117,9 @@ def _without_name_behind(tokens: Sequence[Token]) -> list[Token]:
     return [*tokens[:-3], tokens[-1]] if behind else list(tokens)
 
 
-def _greeted(words: Sequence[str], at: int) -> int:
-    """The word after "okay, hey" at word `at`."""
+def _greeted(words: Sequence[str]) -> int:
+    """The word after "okay, hey" that `words` begin with."""
+    at = 0
     while words[at] in lexicon.GREETINGS:
         at += 1 + (words[at + 1] == "," and words[at + 2] in lexicon.GREETINGS | _TOLD)
     return at

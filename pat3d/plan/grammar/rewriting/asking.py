@@ -66,7 +66,7 @@ def plainly_asked(told: list[list[Token]], nouns: Nouns) -> list[list[Token]]:
     made: list[list[Token]] = []
     for sentence in told:
         told_before = [token.text for each in made for token in each]
-        there = _another(_nothing_there(sentence), told_before, nouns)
+        there = _another(sentence, told_before, nouns)
         whole = _before_that(_stripped(_that_is(there, told_before)))
         made += _plainly(from_where(_by_the_robot(stack_of(whole)), nouns), told_before)
     return made
@@ -236,28 +236,6 @@ def _before_that(sentence: list[Token]) -> list[Token]:
     words = [token.text for token in sentence]
     deed = words[:2] == ["before", "you"] and len(words) > 4 and base_verb(words[2]) == words[2]
     return [sentence[0], *sentence[2:]] if deed and words[3] in _LEADS else sentence
-
-
-def _nothing_there(sentence: list[Token]) -> list[Token]:
-    """Read "there is nothing on the tray" as "there is an empty tray"."""
-    words = [token.text for token in sentence]
-    there = 2 if words[:2] == ["there", "is"] else 1 if words[0] == "there's" else 0
-    if (
-        not there
-        or words[there] != "nothing"
-        or words[there + 1] not in ("on", "in", "inside")
-        or len(words) < there + 4
-    ):
-        return sentence
-    if {"but", "except", "besides", "else", "than"} & {*words}:
-        return sentence
-    name = there + 2
-    if words[name] not in _LEADS or any(
-        token.mark or link_at(sentence, name + n) for n, token in enumerate(sentence[name:-1])
-    ):
-        return sentence
-    empty = [replace(sentence[there], text=word) for word in ("an", "empty")]
-    return [*sentence[:there], *empty, *sentence[name + 1 :]]
 
 
 def _let(sentence: list[Token]) -> list[Token]:

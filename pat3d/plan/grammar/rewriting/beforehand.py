@@ -13,7 +13,7 @@ from pat3d.plan.english import plural
 from pat3d.plan.grammar.rewriting.errands import FILLING
 from pat3d.plan.grammar.rewriting.instructions import VERBS, known_verb
 from pat3d.plan.grammar.rewriting.wielded import noun_of, wielded
-from pat3d.plan.grammar.words import lexicon, postures
+from pat3d.plan.grammar.words import lexicon, postures, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.number_words import ORDINALS
@@ -153,9 +153,9 @@ def _carrying(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
         stays = sentence[end + told].mark or words[end + told] in _OTHERWISE or words[end - 1] in lexicon.DETACHED
         if owner is None or thing is None or stays or wielded(sentence[at + 1 : -1], words[at], (), nouns)[1]:
             continue
-        inside = nouns.of_class(owner.noun, lexicon.HOLLOW)
+        inside = nouns.of_class(owner.noun, vessels.HOLLOW)
         level = any(nouns.of_class(owner.noun, each) for each in _TOPS)
-        if (inside or level) and not nouns.of_class(thing.noun, lexicon.ON_RIMS):
+        if (inside or level) and not nouns.of_class(thing.noun, vessels.ON_RIMS):
             where = replace(sentence[had], text="in" if inside else "on")
             there = _told(sentence[had + 1 : end], [where, *sentence[first:had]], many=thing.plural)
             return [there, [*sentence[:had], *sentence[end + told :]]]

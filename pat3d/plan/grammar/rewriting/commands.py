@@ -305,16 +305,13 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _handed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "hand over the cup" as "fetch the cup", and "make sure" as "ensure"."""
+    """`tokens` with "hand over the cup" as "fetch the cup"."""
     made: list[Token] = []
     told = {token.text for token in tokens}
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
         if token.text == "first" and before == ":" and follower in lexicon.DETERMINERS:
             # "First the bottles, then the tins."
-            continue
-        if token.text == "leave" and follower in ("everything", "anything") and "else" in told:
-            made.append(replace(token, text="avoid"))
             continue
         stowed = token.text in ("away", "back") and told & _STOWING and follower in _PLACING and before != "the"
         if stowed and tokens[at + 2].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | {"to"}:
@@ -337,9 +334,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if leads and follower in lexicon.DEFINITE | lexicon.POSSESSIVES and not _leads_on(tokens, at):
             # "Pass the hammer."
             token = replace(token, text="fetch")
-        if token.text == "sure" and before in ("make", "making") and follower != "to":
-            made[-1] = replace(made[-1], text="ensure", end=token.end)
-            continue
         made.append(token)
     return made
 

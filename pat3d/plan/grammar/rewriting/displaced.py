@@ -26,9 +26,8 @@ _SOME = rf"(?:{'|'.join(lexicon.NUMBERS)}) |the (?:{'|'.join(lexicon.SUPERLATIVE
 _MEMBERS = wordings(
     (
         (rf"of which ({_SOME})(?=(?:{'|'.join(STANDING)}) )", r"\1 of which"),
-        # "Two cubes, one on the other", "one leaning on the other"
+        # "Two planks, one leaning against the other"
         (r"(, one )(leaning )[^ ]+ (?=[^ ]+ other )", r"\1 of them \2 against"),
-        (r"(?<!on )(one on )(the other )(?=[.,:;-] )", r"\1 top of \2"),
     )
 )
 _BARE = r"(?<!the )(?<!its )((?:left|right) )"

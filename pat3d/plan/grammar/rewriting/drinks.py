@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_VESSELS = tuple(name for name in lexicon.HOLLOW if name not in lexicon.LARGE_VESSELS)
+_VESSELS = tuple(name for name in vessels.HOLLOW if name not in vessels.LARGE_VESSELS)
 _LEADS = frozenset({"some", "fresh", "cold", "hot", "warm", "iced"})
 _IN_IT = (["in", "it"], ["inside", "it"], ["in", "them"])
 

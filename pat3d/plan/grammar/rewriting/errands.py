@@ -12,7 +12,7 @@ from dataclasses import replace
 from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.rewriting.outcomes import put_back
 from pat3d.plan.grammar.rewriting.wordings import NAME, reworded, wordings
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -265,7 +265,7 @@ def _further_goal(moved: str, link: str, goal: str, named: str, nouns: Nouns) ->
     if not (below and then) or not (opens or level) or link not in ("in", "into", "inside", "on", "onto", "to"):
         return ""
     gain = likely.carried(then, kind, below) - (likely.carried(thing, "in" if opens else "on", then) if thing else 0)
-    large = likely.is_a(then, lexicon.LARGE_VESSELS, lexicon.FLOOR, tuple(lexicon.OPENED))
+    large = likely.is_a(then, vessels.LARGE_VESSELS, lexicon.FLOOR, tuple(vessels.OPENED))
     return "" if gain < (0.2 if large else 0.8) else "in" if opens else "on"
 
 

@@ -58,10 +58,10 @@ def in_order(tokens: Sequence[Token], opens: Callable[[int], bool]) -> Sequence[
 def _behind(tokens: Sequence[Token], opens: Callable[[int], bool]) -> list[Token] | None:
     """`tokens` with "close the box after putting the egg in it" as "put the egg in the box and then close the box".
 
-    So is "... before closing it" as "... and then close it"; None where nothing is said so.
+    None where nothing is said so.
     """
     leads = {*_LEADS, "it", "them"}
-    at = next((n for n in range(2, len(tokens) - 3) if tokens[n].text in ("before", "after")
+    at = next((n for n in range(2, len(tokens) - 3) if tokens[n].text == "after"
                and tokens[n + 1].text.endswith("ing") and tokens[n + 2].text in leads), 0)  # fmt: skip
     verb = base_verb(tokens[at + 1].text) if at else None
     marked = any(token.mark for token in tokens[:-1])
@@ -69,8 +69,6 @@ def _behind(tokens: Sequence[Token], opens: Callable[[int], bool]) -> list[Token
         return None
     told, deed, stop = tokens[:at], [replace(tokens[at + 1], text=verb), *tokens[at + 2 : -1]], tokens[-1]
     then = [replace(tokens[at], text=word) for word in ("and", "then")]
-    if tokens[at].text == "before":
-        return [*told, *then, *deed, stop]
     meant = [n for n, token in enumerate(deed) if token.text in _REFERRING]
     if meant and any(link_at(told, n) for n in range(1, len(told))):
         return None

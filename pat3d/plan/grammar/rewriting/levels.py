@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from pat3d.plan.grammar.rewriting.instructions import VERBS
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.modifiers import is_modifier
@@ -100,7 +100,7 @@ def _of_a_thing(tokens: Sequence[Token], level: _Level, nouns: Nouns) -> list[To
         return list(tokens)
     if level.word == "top" and not nouns.of_class(name.noun, _FAR_ENDS):
         said = ("on", "top", "of")
-    elif level.word == "bottom" and nouns.of_class(name.noun, (*lexicon.HOLLOW, *lexicon.OPENED)):
+    elif level.word == "bottom" and nouns.of_class(name.noun, (*vessels.HOLLOW, *vessels.OPENED)):
         said = ("in",)
     else:
         return list(tokens)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.outcomes import TAKING
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
@@ -34,7 +34,7 @@ def lid_on(tokens: Sequence[Token]) -> list[Token]:
     made: list[Token] = []
     for at, token in enumerate(tokens):
         made.append(token)
-        closing = token.text == "on" and at > 2 and tokens[at - 1].text in lexicon.ON_RIMS
+        closing = token.text == "on" and at > 2 and tokens[at - 1].text in vessels.ON_RIMS
         if (
             closing
             and (tokens[at + 1].mark or tokens[at + 1].text == "and")
@@ -50,7 +50,7 @@ def lid_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     What is hinged is no thing of its own.
     """
     words = [token.text for token in tokens]
-    lids = (at for at in range(1, len(words) - 1) if words[at] in lexicon.ON_RIMS and words[at - 1] in ("the", "'s"))
+    lids = (at for at in range(1, len(words) - 1) if words[at] in vessels.ON_RIMS and words[at - 1] in ("the", "'s"))
     for lid in lids:
         owned = words[lid - 1] == "'s"
         start = lid + 2

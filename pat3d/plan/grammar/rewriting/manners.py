@@ -12,7 +12,7 @@ from pat3d.plan.grammar.rewriting.in_turn import in_turn
 from pat3d.plan.grammar.rewriting.numbered import LABELLED, labels_end
 from pat3d.plan.grammar.rewriting.of_material import one_of_stuff
 from pat3d.plan.grammar.rewriting.open_questions import choice
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
@@ -29,7 +29,8 @@ _EXTREME = (
     r"(?:the )?(?:largest|smallest|biggest|tallest|shortest|longest|heaviest|lightest|thickest|thinnest|widest"
     r"|narrowest|big|small|large|tall|short)(?: one)?(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 )
-_NO_NAMES = (r"\.", ",", *"can could what that as if and after before once when where until while".split())
+_NO_NAMES = (r"\.", ",", "can", "could", "what", "that", "as", "if", "and", "after", "before", "once", "when", "where",
+             "until", "while")  # fmt: skip
 """Words before "you" and "I" that are not what those have or use."""
 _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
@@ -152,7 +153,7 @@ def _trait(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
         plain = doing and words[doing] not in lexicon.PARTICIPLES and words[doing] not in lexicon.NOT_VERBS
         plain = plain and not link_at(tokens, doing) and nouns.match([words[doing]]) is None
         counted = {"a", "an", *lexicon.NUMBERS} & {*words[doing:end]} - {"one"}
-        if plain and not counted and words[doing - 1] not in lexicon.ON_RIMS:
+        if plain and not counted and words[doing - 1] not in vessels.ON_RIMS:
             return [*tokens[:at], *tokens[end:]], [(tokens[at + 1], tokens[end - 1])]
     return None
 

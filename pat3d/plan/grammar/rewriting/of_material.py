@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.rewriting.denials import Told
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import FINITE
@@ -58,7 +58,7 @@ def one_of_stuff(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Tol
         if told or not counted or words[end - 1] == "of":
             continue
         owner = next(filter(None, (nouns.match(words[n : n + 1]) for n in range(counted, min(counted + 3, at)))), None)
-        vessel = owner is not None and nouns.of_class(owner.noun, (*lexicon.HOLLOW, *lexicon.LEVEL))
+        vessel = owner is not None and nouns.of_class(owner.noun, (*vessels.HOLLOW, *lexicon.LEVEL))
         if vessel and find_material(words[end - 1]) is None:
             return [*tokens[: at + 1], replace(tokens[at + 1], text="with"), *tokens[at + 2 :]], []
         return [*tokens[: at - 1], *tokens[end:]], [(tokens[at], tokens[end - 1])]

@@ -30,12 +30,12 @@ def at_row_ends(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     counted = counted_in(words, stop, nouns) if stop else None
     if counted is None:
         return list(tokens)
-    made = _rows_by_name(tokens, stop, counted[1], nouns)
+    made = _rows_by_name(tokens, stop, counted[1])
     beside = _beside(made, row, stop, counted[1], nouns)
     return _ranked(made, stop, counted[1], *beside) if beside is not None else made
 
 
-def _rows_by_name(tokens: Sequence[Token], stop: int, said: str, nouns: Nouns) -> list[Token]:
+def _rows_by_name(tokens: Sequence[Token], stop: int, said: str) -> list[Token]:
     """`tokens` with "to the left of the row" behind `stop` as "to the left of the cups", which are what is `said`."""
     made: list[Token] = []
     plural = next(

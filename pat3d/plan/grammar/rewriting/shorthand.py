@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.links import LINKS
@@ -123,7 +123,7 @@ def out_of_brackets(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[To
         carrier = carrier if close and tokens[start].text not in _NEAR else None
         if carrier and _contents(tokens[start:end], carrier[0], nouns, sure=sure):
             match, name = carrier
-            inside = nouns.of_class(match.noun, (*lexicon.HOLLOW, *lexicon.OPENED, *lexicon.SHUT))
+            inside = nouns.of_class(match.noun, (*vessels.HOLLOW, *vessels.OPENED, *vessels.SHUT))
             lead = [replace(token, text=word, mark=False) for word in ("in" if inside else "on", "the")]
             colon, stop = replace(token, text=":"), replace(tokens[close], text=".")
             told += [*lead, *name, colon, *tokens[start:end], stop]
@@ -201,7 +201,7 @@ def _closing(text: str, tokens: Sequence[Token], at: int) -> int:
 def _carrier(before: Sequence[Token], nouns: Nouns) -> tuple[Match, list[Token]] | None:
     """The one thing named last in `before` that may have things in it or on it, and its name with what tells it."""
     owner = _owner(before, nouns)
-    tables = (*lexicon.HOLLOW, *lexicon.OPENED, *lexicon.LEVEL, *lexicon.STORAGE, *lexicon.SHUT, *lexicon.SEATS)
+    tables = (*vessels.HOLLOW, *vessels.OPENED, *lexicon.LEVEL, *lexicon.STORAGE, *vessels.SHUT, *lexicon.SEATS)
     return owner if owner is not None and nouns.of_class(owner[0].noun, tables) else None
 
 
@@ -236,5 +236,5 @@ def _contents(inside: Sequence[Token], carrier: Match, nouns: Nouns, *, sure: bo
         if found is None or found[0].noun == carrier.noun or link_at(inside, 0):
             return False
         named.append(found[0].noun)
-    alone = not sure and len(named) == 1 and nouns.of_class(named[0], (*lexicon.HOLLOW, *lexicon.FLOOR))
+    alone = not sure and len(named) == 1 and nouns.of_class(named[0], (*vessels.HOLLOW, *lexicon.FLOOR))
     return bool(named) and not alone

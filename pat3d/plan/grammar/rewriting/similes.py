@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Span, Token
 from pat3d.plan.grammar.words.modifiers import is_modifier
@@ -33,7 +33,7 @@ def similes(tokens: Sequence[Token], nouns: Nouns) -> list[Span]:
     made: list[Span] = []
     for at in range(1, len(words) - 2):
         before = nouns.match(words[at - 1 : at])
-        bears = before is None or any(nouns.of_class(before.noun, each) for each in (lexicon.LEVEL, lexicon.HOLLOW))
+        bears = before is None or any(nouns.of_class(before.noun, each) for each in (lexicon.LEVEL, vessels.HOLLOW))
         if words[at] == "with" and words[at + 2] == "ingredients" and not bears:
             # "A soap with natural ingredients"
             return [(at, at + 3)]

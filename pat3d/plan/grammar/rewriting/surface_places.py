@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token
@@ -151,11 +151,11 @@ def across_the_top(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     said = (["across", "the", "top"], ["over", "the", "top"])
     at = next((n for n in range(len(words) - 3) if words[n : n + 3] in said and words[n + 3] != "of"), 0)
     known = ((word, nouns.match([word])) for word in words[:at])
-    vessels = [word for word, found in known if found is not None and nouns.of_class(found.noun, lexicon.HOLLOW)]
-    if not at or len({*vessels}) != 1:
+    named = [word for word, found in known if found is not None and nouns.of_class(found.noun, vessels.HOLLOW)]
+    if not at or len({*named}) != 1:
         return list(tokens)
     across = replace(tokens[at], text="across")
-    return [*tokens[:at], across, tokens[at + 1], replace(tokens[at + 2], text=vessels[0]), *tokens[at + 3 :]]
+    return [*tokens[:at], across, tokens[at + 1], replace(tokens[at + 2], text=named[0]), *tokens[at + 3 :]]
 
 
 def _told(words: Sequence[str], nouns: Nouns) -> str:

@@ -154,10 +154,6 @@ class Tails(Remarks):
             return False
         if any(self._placing(at) for at in range(start, end)) or after in ("of", "than", "as", ":"):
             return False
-        if words[:2] == ["in", "the"] and words[-1] in _CELLS and len(words) > 3:
-            return all(word in _CELLS | {"in", "the", "of"} or word in lexicon.POSITIONS for word in words)
-        if words in (["in", "the", "row"], ["in", "the", "line"]):
-            return self._behind_noun(start)
         if len(words) == 1 and is_marked(words[0]):
             return before in ("hang", "hangs", "hanging", "hung")
         if len(words) == 1 and after in lexicon.ROWS and before in ("a", "one", "two", "three"):
@@ -319,10 +315,6 @@ class Tails(Remarks):
             said = self._words[max(start, at - 3) : at]
             if size and not (size == 1 and self._is_no_thing(at)):
                 found = self._nouns.match(self._words[at : at + size])
-                if found is not None and found.noun == "robot" and self._words[at - 1] in ("the", "of", "by"):
-                    # Who does what is asked.
-                    at += size
-                    continue
                 if self._owns_part(at, size):
                     at += size
                     continue

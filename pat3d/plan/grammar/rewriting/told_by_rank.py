@@ -15,11 +15,7 @@ from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import ORDINALS, number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_BEHIND, _BEFORE = ["one", "behind", "the", "other"], ["one", "in", "front", "of", "the", "other"]
-_ENDS = {
-    "front": (("at", "the", "front"), ("in", "the", "front"), ("in", "front")),
-    "back": (("at", "the", "back"), ("in", "the", "back"), ("at", "the", "rear"), ("behind", "it"), ("behind",)),
-}
+_BEFORE = ["one", "in", "front", "of", "the", "other"]
 
 
 def by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -76,28 +72,12 @@ def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
 
 def _front_and_back(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "one in front of the other" as "one behind the other", and its "one in front" as the front one."""
+    """`tokens` with "one in front of the other" as "one behind the other"."""
     words = [token.text for token in tokens]
     at = next((n for n in range(len(words)) if words[n : n + 6] == _BEFORE), -1)
-    made = list(tokens)
-    if at >= 0:
-        made[at + 1 : at + 4] = [replace(tokens[at + 1], text="behind", end=tokens[at + 3].end)]
-        words = [token.text for token in made]
-    first = next((n for n in range(len(words)) if words[n : n + 4] == _BEHIND), len(words))
-    at = first + 4
-    while at < len(made) - 2:
-        words = [token.text for token in made]
-        if words[at : at + 2] == ["the", "one"] or (words[at : at + 2] == ["the", "rear"]):
-            rear = words[at + 1] == "rear"
-            told = next(((side, len(said)) for side, each in _ENDS.items() for said in each
-                         if tuple(words[at + 2 : at + 2 + len(said)]) == said), None)  # fmt: skip
-            behind = at + 2 + (told[1] if told else 0)
-            if rear:
-                made[at + 1] = replace(made[at + 1], text="back")
-            elif told and (words[behind] in lexicon.COPULAS or is_modifier(words[behind]) or words[behind] == "holds"):
-                made[at + 1 : behind] = [replace(made[at + 1], text=told[0]), replace(made[behind - 1], text="one")]
-        at += 1
-    return made
+    if at < 0:
+        return list(tokens)
+    return [*tokens[: at + 1], replace(tokens[at + 1], text="behind", end=tokens[at + 3].end), *tokens[at + 4 :]]
 
 
 def _another_holds(tokens: Sequence[Token]) -> list[Token]:

@@ -16,7 +16,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_colour_word, is_marked, is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.unmade import base_verb, is_no_noun
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -263,10 +263,6 @@ def _plain(tokens: Sequence[Token]) -> list[Token]:
         told = _PLAINER[words[:size]] if size else ()
         follower = tokens[min(at + size, len(tokens) - 1)].text
         leads = follower in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.VAGUE.keys()
-        if size and told[:1] == ("of",) and made and made[-1].text == ",":
-            # "Six mugs, each in a different color, stand in a row."
-            made.pop()
-            tokens = [*tokens[: at + size], *tokens[at + size + (tokens[at + size].text == ",") :]]
         if size and told == ("there", "are") and not (made and leads and made[-1].text not in ("that", "which", "as")):
             size = 0
         if size:
@@ -281,9 +277,6 @@ def _plain(tokens: Sequence[Token]) -> list[Token]:
         if words[:4] == ("left", "and", "right", "of") and before != "the":
             made += [replace(tokens[at], text="to"), replace(tokens[at], text="the")]
         made.append(tokens[at])
-        if words[0] in ("is", "are") and words[1] in ("both", "all", "each") and is_marked(words[2]):
-            # "They are both upside down."
-            at += 1
         if (
             words[0] == "next"
             and words[1] in ("the", "a", "an")

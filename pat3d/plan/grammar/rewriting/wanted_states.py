@@ -353,8 +353,6 @@ def _verb(rest: Sequence[Token]) -> tuple[str, int] | None:
     base = base_verb(word) if word.endswith(("ed", "put", "hung", "set")) else None
     if base is not None and known_verb(base):
         return base, 1
-    if word in SWITCHED and alone:
-        return SWITCHED[word], 1
     if (word in ("on", "off") and alone) or (postures.is_posture(word) and alone):
         return "turn", 0
     size = link_at(rest, int(postures.is_posture(word)))

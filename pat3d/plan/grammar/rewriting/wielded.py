@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.vocabulary import Match, Nouns
@@ -62,7 +62,7 @@ def wielded(body: Sequence[Token], verb: str, before: Sequence[Token], nouns: No
         if found is None or found.plural or not ends:
             continue
         owner = noun_of(words[:at], nouns)
-        carried = owner is not None and any(nouns.of_class(owner.noun, each) for each in (lexicon.HOLLOW, _CARRYING))
+        carried = owner is not None and any(nouns.of_class(owner.noun, each) for each in (vessels.HOLLOW, _CARRYING))
         picked = verb in _HANDLING and nouns.of_class(found.noun, _GRIPPING if carried else (*_GRIPPING, *_CUTLERY))
         taken = (
             words[leads - 1] == "the" and verb in _WORKING | _HANDLING and words[end - 1] in {t.text for t in before}

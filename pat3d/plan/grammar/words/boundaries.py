@@ -78,8 +78,6 @@ class Boundaries:
             (word in lexicon.NUMBERS or word.isdecimal()) and word not in ("set", "single")
         ):
             return not (word in ("couple", "dozen", "trio") and self._tokens[at + 1].text == "of" and not run)
-        if word == "of":
-            return True
         multi = link_at(self._tokens, at)
         if multi > 1 and not self._extends(words, word):
             return True
