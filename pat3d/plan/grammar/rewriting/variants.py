@@ -187,15 +187,15 @@ def _many_coloured(tokens: list[Token], nouns: Nouns) -> list[Token]:
     words = [token.text for token in tokens]
     for at in range(1, len(words) - 3):
         listed = words[at + 2] not in ("colors", "colours") or words[at + 3] in ("(", ":")
-        if words[at] != "of" or words[at + 1] not in _VARIED or listed:
+        # "Four cups, each of a different colour, stand on a tray"
+        end = at - (words[at - 1] == ",")
+        sizes = (n for n in (3, 2, 1) if n <= end and (found := nouns.match(words[end - n : end])) and found.plural)
+        if words[at] != "of" or words[at + 1] not in _VARIED or listed or not (name := next(sizes, 0)):
             continue
-        name = next(
-            (n for n in (3, 2, 1) if n <= at and (found := nouns.match(words[at - n : at])) and found.plural), 0
-        )
-        first = tokens[at - name]
+        first, rest = tokens[end - name], at + 3 + (end < at and words[at + 3] == ",")
         look = [replace(first, text=word, end=first.start) for word in ("different", "colored")]
-        named = [*tokens[at - name : at - 1], replace(tokens[at - 1], end=tokens[at + 2].end)]
-        return [*tokens[: at - name], *look, *named, *tokens[at + 3 :]] if name else tokens
+        named = [*tokens[end - name : end - 1], replace(tokens[end - 1], end=tokens[at + 2].end)]
+        return [*tokens[: end - name], *look, *named, *tokens[rest:]]
     return tokens
 
 
