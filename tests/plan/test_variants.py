@@ -29,7 +29,7 @@ def planner() -> GrammarPlanner:
         ("Put the ruler back in the drawer.", "Put the ruler in the drawer."),
         ("Reach for the mug on the tray and pick it up.", "Pick up the mug on the tray."),
         ("Stacking a mug on a plate.", "Stack a mug on a plate."),
-        ("Build a tower using three red cubes.", "A tower of three red cubes."),
+        ("Build a tower using three red cubes.", "Stack the three red cubes."),
         ("There seems to be a vase behind the clock.", "A vase is behind the clock."),
         ("In this photo we can see a mug on a tray.", "A mug on a tray."),
         ("A toaster stands not far from the kettle.", "A toaster stands near the kettle."),
