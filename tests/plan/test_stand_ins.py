@@ -140,9 +140,9 @@ def test_it_has_its_own_size_as_said_of_it(prompt: str, metres: float | None, no
     assert notes == [noted]
 
 
-@pytest.mark.parametrize("word", ["stairs", "stock", "breaker", "planet", "cartoon"])
+@pytest.mark.parametrize("word", ["stock", "breaker", "planet", "cartoon"])
 def test_a_word_of_its_own_is_no_slip(word: str) -> None:
-    """Each is a letter away from a noun: star, sock, scone, beaker, plant, carton."""
+    """Each is a letter away from a noun: sock, scone, beaker, plant, carton."""
     with pytest.raises(PromptError, match=f'"{word}"'):
         PLANNER.plan(f"The {word} beside a mug.")
 

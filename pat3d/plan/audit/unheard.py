@@ -69,7 +69,7 @@ def unheard(it: Compared) -> list[tuple[int, str]]:
             or phrases & {word, word.removesuffix("er"), word.removesuffix("est"), word[:-3], word[:-4]}
             or word in shapes
             or (word in SILENT and not unpainted)
-            or not word[0].isalpha()
+            or not (word[0].isalpha() and word[1:].strip("0123456789"))
         ):
             continue
         if measured and word.startswith(_MEASURING):

@@ -16,7 +16,6 @@ from pat3d.plan.grammar.words.measures import is_measure
 from pat3d.plan.grammar.words.modifiers import Modifiers, telling
 from pat3d.plan.grammar.words.parts import FIXED, HAD
 from pat3d.plan.grammar.words.shapes import refuse, shape_said
-from pat3d.plan.grammar.words.unmade import base_verb
 
 ABOUT = frozenset({"exactly", "precisely", "approximately", "roughly", "nearly", "almost", "about", "only"})
 
@@ -42,11 +41,6 @@ class Asides(RelationWords):
             return True
         if word == "for" and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
             return self._leave(read[1] - self._at)
-        done = self._word(-1)
-        agent = word == "by" and base_verb(done) is not None and self._word(-2) in ("be", "being")
-        if agent and self._made.chunks and (read := self._phrases.read(self._at + 1)) is not None:
-            # "Washed by the dishwasher" places nothing beside it.
-            return self._leave(read[1] - self._at)
         after_noun = self._last is not None and self._last.kind == "noun"
         if word == "whose" or (word == "where" and follower in lexicon.DETERMINERS | lexicon.PRONOUNS):
             return self._leave(self._to_mark())
@@ -60,7 +54,7 @@ class Asides(RelationWords):
             size = self._to_mark()
             off = self._word(1) in ("off", "up", "out", "open", "down")
             return self._leave(size if self._word(1) in ("into", "from", "by", "in") else 1 + off)
-        if word in ("in", "into") and follower in lexicon.CUT_INTO and done in lexicon.STATES:
+        if word in ("in", "into") and follower in lexicon.CUT_INTO and self._word(-1) in lexicon.STATES:
             # "A loaf that is cut into pieces"
             size = next(n for n in range(1, len(self._tokens)) if self._word(n) not in lexicon.CUT_INTO)
             if self._tokens[self._at + size].mark or self._word(size) == "and":

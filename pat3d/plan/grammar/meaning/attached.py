@@ -127,19 +127,20 @@ def put_carriers(world: World, named: Sequence[Item], table: Item) -> None:
 
 
 def lay_table(world: World) -> None:
-    """Put what a table is laid with, and what is named behind it, on it: "a table, a runner and two candles"."""
+    """Put what is named behind a table on it: "a table, a runner and two candles", "a desk and three monitors"."""
     items = world.items()
-    tables = [item for item in items if world.is_a(item, _TABLES)]
-    placed = {item for edge in world.laterals for item in (edge.child, edge.parent)} | world.grounded | world.floored
-    placed |= {*world.supports, *(item for each in world.arranged for item in each.items)}
-    free = [item for item in items[items.index(tables[0]) :] if item not in placed] if len(tables) == 1 else []
-    first = next(
-        (at for at, one in enumerate(free) if lexicon.LAID & {one.group.said, *singulars(one.group.said)}), None
-    )
-    laid = [item for item in free[first:] if not (world.on_floor(item) or world.is_a(item, LARGE))]
-    for item in laid if first is not None else ():
-        world.place([item], "on", tables, weak=True)
-        world.note(f'assumed: "{item.group.words}" on "{tables[0].group.words}"')
+    taken = {item for edge in world.laterals for item in (edge.child, edge.parent)} | world.grounded | world.floored
+    taken |= {*world.supports, *(item for each in world.arranged for item in each.items)}
+    for names in (_TABLES, ("desk",)):
+        tables = [item for item in items if world.is_a(item, names)]
+        free = [item for item in items[items.index(tables[0]) :] if item not in taken] if len(tables) == 1 else []
+        laid = (at for at, one in enumerate(free) if lexicon.LAID & {one.group.said, *singulars(one.group.said)})
+        first = next(laid, len(free)) if names is _TABLES else 0
+        for item in free[first:]:
+            device = names is _TABLES or world.is_a(item, (*lexicon.DEVICES, "computer mouse"))
+            if device and not (world.on_floor(item) or world.is_a(item, LARGE)):
+                world.place([item], "on", tables, weak=True)
+                world.note(f'assumed: "{item.group.words}" on "{tables[0].group.words}"')
 
 
 def _moved(world: World, than: World) -> Sequence[Edge]:

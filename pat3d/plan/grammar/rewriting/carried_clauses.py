@@ -6,10 +6,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.modifiers import is_modifier
 from pat3d.plan.grammar.words.number_words import number_of
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import SUPPORT_KINDS
 
 _HOLDING = frozenset({"holds", "hold", "contains", "contain", "carries", "carry"})
 _OF_ALL = ([",", "all", "on"], [",", "all", "in"], [",", "each", "with"])
@@ -18,7 +21,60 @@ _TOO = (("too",), ("as", "well"))
 
 def of_the_carried(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "a desk with a bucket on it that holds a comb" as "... on it. The bucket holds a comb"."""
-    return _as_many(_its_own(_on_it_too(list(tokens)), nouns), nouns)
+    return _as_many(_its_own(_on_it_too(_rug_under(_also_there(list(tokens), nouns), nouns)), nouns), nouns)
+
+
+def _rug_under(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "a lamp on the table and a rug under it" as "... under the table": no rug lies on a table."""
+    words = [token.text for token in tokens]
+    for at in (n for n in range(5, len(words)) if words[n] == "it"):
+        under = LINKS.get((words[at - 1],), None)
+        rug = nouns.match([words[at - 2 - (words[at - 2] in lexicon.STANDING)]])
+        on = max((n for n in range(at) if words[n] == "on" and words[n + 1] in lexicon.DETERMINERS), default=0)
+        stop = next(n for n in range(on + 1, len(words)) if tokens[n].mark or words[n] in FINITE | {"and", "with"})
+        table = nouns.longest(words[on + 2 : stop]) if on and under is not None and under.manner == "under" else None
+        alone = not any(link_at(tokens, n) and words[n] != "with" for n in range(stop, at - 1))
+        floor = (*lexicon.FLOOR, "mat")
+        if rug and table and alone and nouns.of_class(rug.noun, floor) and nouns.of_class(table[0].noun, floor):
+            name = [replace(tokens[at], text=word) for word in ("the", *words[on + 2 : stop])]
+            return [*tokens[:at], *name, *tokens[at + 1 :]]
+    return tokens
+
+
+def _also_there(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "on the desk is a lamp. There is also a pen." as "... There is a pen on the desk."."""
+    words, place, start = [token.text for token in tokens], list[Token](), 0
+    for stop in [n for n, word in enumerate(words) if word == "."]:
+        said = words[start:stop]
+        there = next((n for n in range(min(3, len(said))) if said[n] == "there" and said[n + 1] in ("is", "are")), -1)
+        more = {"also", *(each[-1] for each in _TOO)} & {*said[:there], said[there + 2], said[-1]} if there >= 0 else {}
+        links = [n for n in range(start, stop) if link_at(tokens, n) and words[n] not in ("of", "with", "as")]
+        names = [found for n in range(start, stop) if (found := nouns.match(words[n : n + 1])) is not None]
+        floor = any(nouns.of_class(found.noun, lexicon.FLOOR) for found in names)
+        if more and place and not links and not floor:
+            at = [replace(each, start=tokens[stop].start, end=tokens[stop].start) for each in place]
+            return _also_there([*tokens[:stop], *at, *tokens[stop:]], nouns)
+        if not more:
+            place = _fronted(tokens[start : stop + 1], [n - start for n in links], nouns)
+        start = stop + 1
+    return tokens
+
+
+def _fronted(tokens: list[Token], links: list[int], nouns: Nouns) -> list[Token]:
+    """Where the things of a sentence are told to be before they are named, or in "with a fig in it"; or nothing."""
+    words = [token.text for token in tokens]
+    size = link_at(tokens, links[0]) if len(links) == 1 else 0
+    link = LINKS.get(tuple(words[links[0] : links[0] + size])) if size else None
+    if link is None or link.kind not in SUPPORT_KINDS or link.inverse:
+        return []
+    end = links[0] + size
+    joint = next((n for n, word in enumerate(words) if word in ("and", "with")), 0) if words[end] == "it" else 0
+    stop = joint or next((n for n in range(end, len(words)) if words[n] in ("is", "are", "there", ",")), 0)
+    found = nouns.longest(words[end * (not joint) : stop]) if joint or not links[0] else None
+    if found is None or nouns.of_class(found[0].noun, lexicon.SEATS):
+        return []
+    the = [replace(tokens[links[0]], text="the")] if joint else []
+    return [*tokens[links[0] : end], *the, *tokens[stop - len(found[1]) if joint else end : stop]]
 
 
 def _its_own(tokens: list[Token], nouns: Nouns) -> list[Token]:

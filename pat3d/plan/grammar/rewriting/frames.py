@@ -32,7 +32,7 @@ _FRAMES = "|".join((
     r"(?:maybe|perhaps|how about|what about)",
     r"there(?: ought to| has to| have to| needs to| need to| could| might| may| would| will) be",
     r"(?:is it|would it be) possible to (?:have|see|get)",
-    r"(?:one|you) (?:can |could )?see",
+    r"(?:one|you) (?:(?:can |could )?see|have)",
     r"(?:show|give) (?:me|us)(?: something like)?",
     r"(?:(?:can|could|may|might) there (?:be|are)|(?:here|there) there are)",
     r"(?:make sure|ensure)(?: that)? there (?:is|are)",

@@ -16,12 +16,17 @@ from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.modifiers import is_modifier
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.shapes import PLACES, RINGS, UNPLANNED
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
-_STYLES = (("in", "the", "style", "of"), ("in", "the", "manner", "of"), ("in", "style", "of"))
+_STYLES = (
+    ("with", "the", "style", "of"),
+    ("in", "the", "style", "of"),
+    ("in", "the", "manner", "of"),
+    ("in", "style", "of"),
+)
 _NUMBER = rf"(?:{'|'.join(lexicon.NUMBERS)}|\d+)"
 _MEASURE = "(?:height|size|length|width|weight|age|brightness|volume)"
 _DIRECTION = "(?:decreasing|increasing|ascending|descending)"
@@ -92,7 +97,7 @@ _BUNCHES = frozenset({"cluster", "bundle", "bunch", "clump", "huddle", "queue", 
 def without_manners(tokens: Sequence[Token], nouns: Nouns) -> Told:
     """`tokens` of one sentence, which ends in a stop, without what tells only of looks and order."""
     words = [token.text for token in tokens]
-    for told in (choice, one_of_stuff, _style, _stuffs, _aside, _ready, _if, _outlined, _labels, in_turn,
+    for told in (choice, one_of_stuff, _style, _same, _stuffs, _aside, _ready, _if, _outlined, _labels, in_turn,
                  _in_that_order, _such_that, _trait, _seeming, _in_a_bunch, ways.begun, ways.parallel):  # fmt: skip
         if (found := told(tokens, words, nouns)) is not None:
             kept, left_out = found
@@ -159,15 +164,30 @@ def _trait(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
 
 
 def _style(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
-    """Read "a chair in the style of Van Gogh stands" as "a chair stands"."""
-    for at in range(1, len(words) - 2):
+    """Read "a chair in the style of Van Gogh stands" as "a chair stands", "in the style of art, a cup" as "a cup"."""
+    for at in range(len(words) - 2):
         size = next((len(said) for said in _STYLES if tuple(words[at : at + len(said)]) == said), 0)
         if not size:
             continue
         begun = range(at + size + 1, len(words))
         end = next(n for n in begun if tokens[n].mark or words[n] in FINITE or _goes_on(tokens, n, nouns))
-        return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
+        return [*tokens[:at], *tokens[end + (not at and words[end] == ",") :]], [(tokens[at], tokens[end - 1])]
     return None
+
+
+def _same(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
+    """Read "the armchair is the corner chair" as "the armchair"; which of several it is told by, a rank or a colour."""
+    verb = next((n for n in range(2, len(words) - 3) if words[n : n + 2] == ["is", "the"]), 0)
+    if (
+        not verb
+        or words[0] not in ("the", "this", "my")
+        or any(link_at(tokens, n) or tokens[n].mark for n in range(len(words) - 1))
+    ):
+        return None
+    which = {*lexicon.TELLING, *lexicon.NUMBERS, *lexicon.PRONOUNS, "one", "other", "and"}
+    told = which & {*words} or any(is_colour_word(word) for word in words)
+    named = nouns.longest(words[1:verb]) and nouns.longest(words[verb + 2 : -1])
+    return ([*tokens[:verb], tokens[-1]], [(tokens[verb], tokens[-2])]) if named and not told else None
 
 
 def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
-from pat3d.plan.grammar.words.number_words import ORDINALS
+from pat3d.plan.grammar.words.number_words import ORDINALS, numeral
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 LABELLED = frozenset({"labelled", "labeled", "marked", "lettered", "numbered", "named", "called"})
@@ -30,6 +31,8 @@ def steps(text: str, tokens: Sequence[Token], _: Nouns) -> list[Token]:
         behind = at + 1 + (tokens[min(at + 1, len(tokens) - 1)].text == ".")
         verb = tokens[min(behind, len(tokens) - 1)].text
         begins = token.text in (str(number + 1), "2"[number:]) and text[token.end : token.end + 1] in ("-", ".", ")")
+        # "On block 2. Block 1 ..."
+        begins = begins and tokens[at - 1].text != verb
         if begins and (known_verb(verb) or verb == "done"):
             number = int(token.text)
             made += [replace(token, text=".", mark=True)] if made and not made[-1].mark else []
@@ -43,6 +46,7 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
 
     A number before its name stays as "number-4" there, which nothing shows.
     """
+    tokens = _called(text, tokens, nouns)
     labels: dict[str, dict[str, None]] = {}
     found: dict[int, tuple[Sequence[Token], Token, int]] = {}
     """Behind the first token of each: the name, its label, and where both end."""
@@ -83,6 +87,20 @@ def ordinals(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         made += [*article, *which, *number, *named]
         at = end
     return made
+
+
+def _called(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "4 blocks. b3 is on b2", "4 blocks. C is on B", as "4 blocks. block 3 is on block 2"."""
+    words, named = [token.text for token in tokens], dict[int, tuple[Token, ...]]()
+    count = next((n for n in range(len(words) - 2) if numeral(words[n]) > 1 and singulars(words[n + 1])), len(words))
+    name = next((one for one in singulars(words[count + 1]) if nouns.match([one])), "") if count < len(words) else ""
+    for at in range(count + 2, len(words) - 1 if name and not LABELLED & {*words} else 0):
+        before, short = nouns.match(words[at - 1 : at]), re.fullmatch(r"[a-z](\d)", words[at])
+        label = short[1] if short else _label(text, tokens, at) if words[at].isalpha() else ""
+        if label and not nouns.match(words[at : at + 1]) and (before is None or before.plural):
+            named[at] = replace(tokens[at], text=name), replace(tokens[at], text=label)
+    several = len({label.text for _, label in named.values()}) > 1
+    return [one for at, token in enumerate(tokens) for one in (several and named.get(at)) or (token,)]
 
 
 def _name(named: Sequence[Token]) -> str:

@@ -30,7 +30,8 @@ def made_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         said = predicate and (words[at] in _MADE or words[at] == "of")
         # "A boat out of paper"
         out = words[at : at + 2] == ["out", "of"] and find_material(words[at + 2]) and base_verb(words[0]) != words[0]
-        if not said and (not (out or words[at] in _MADE) or not nouns.match([words[at - 1]])):
+        name = next((n for n in (3, 2, 1) if nouns.match(words[max(0, at - n) : at])), 0)
+        if not said and not (name and (out or words[at] in _MADE)):
             continue
         of = at + (words[at] in _MADE)
         of += words[of] == "out"
@@ -41,7 +42,6 @@ def made_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if said and alone and known:
             return made_of([*tokens[:at], *tokens[of + 1 :]], nouns)
         if not said and alone and (nouns.match([material]) or known):
-            name = next(n for n in (3, 2, 1) if nouns.match(words[max(0, at - n) : at]))
             made = [*tokens[: at - name], tokens[of + 1], *tokens[at - name : at], *tokens[end:]]
             return made_of(made, nouns)
     return list(tokens)

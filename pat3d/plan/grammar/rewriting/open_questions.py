@@ -13,6 +13,8 @@ from pat3d.plan.grammar.rewriting.instructions import known_verb
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.modifiers import is_colour_word, is_modifier
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _NEGATIONS = frozenset({
@@ -30,8 +32,17 @@ def choice(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | No
     """Read "either of the two jars" and "either jar" as "one of the two jars".
 
     So is "whichever jar is taller" "the taller of the two jars", and "put it in either the jar or the box" without
-    "either".
+    "either". "A shelf or rack" is one thing, the first.
     """
+    for at in (n for n in range(2, len(words) - 2) if words[n] == "or" and not is_colour_word(words[n - 1])):
+        start = at - next((n for n in (3, 2, 1) if nouns.match(words[max(at - n, 0) : at])), at)
+        while start and is_modifier(words[start - 1]):
+            start -= 1
+        end = next((n for n in range(at + 1, at + 4) if nouns.longest(words[at + 1 : n + 1])), 0)
+        end += bool(end and nouns.match(words[end : end + 2]))
+        one = start and words[start - 1] in ("a", "an") and not {*words[at + 1 : end + 1]} & lexicon.LEADING
+        if one and end and (tokens[end + 1].mark or link_at(tokens, end + 1) or words[end + 1] in FINITE | {"and"}):
+            return [*tokens[:at], *tokens[end + 1 :]], [(tokens[at], tokens[end])]
     for at in range(len(words) - 2):
         if words[at] not in ("either", "whichever") or words[at + 1] in ("side", "end", "is"):
             continue

@@ -74,6 +74,7 @@ class Remarks:
                 or self._lacking(at)
                 or self._participle(at)
                 or self._verb(at)
+                or self._owner(at)
             )
             if end:
                 made.append((at, end))
@@ -253,6 +254,16 @@ class Remarks:
         link = LINKS.get(tuple(self._words[at + 1 : at + 1 + size]))
         placing = link is not None and link.manner not in ("source", "goal", "of") and self._begins(at + 1 + size)
         return at + 1 if unknown and verb and placing and self._single(at) else 0
+
+    def _owner(self, at: int) -> int:
+        """The end of "of a student" at `at`, behind furniture or a room: who is no thing."""
+        names = (self._nouns.match(self._words[at - n : at]) for n in (2, 1) if self._named.get(at - n) == n)
+        found = next(names, None)
+        whole = self._words[at - 1] in lexicon.BACKGROUND or (found and self._nouns.of_class(found.noun, lexicon.FLOOR))
+        told = (n for n in range(at + 2, len(self._words)) if self._tokens[n].mark or link_at(self._tokens, n)
+                or self._words[n] in JOINERS | FINITE)  # fmt: skip
+        end = next(told, 0) if whole and self._words[at] == "of" and self._words[at + 1] in ("a", "an", "my") else 0
+        return end if end > at + 2 and self._empty(at, end) else 0
 
     def _behind_noun(self, at: int) -> bool:
         """Whether a noun, or a part of one, ends right before `at` or before the comma there."""

@@ -25,12 +25,14 @@ from pat3d.plan.grammar.words.modifiers import is_colour_word
 from pat3d.plan.grammar.words.number_words import ORDINALS
 from pat3d.plan.grammar.words.unmade import base_verb
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import SUPPORT_KINDS
 
 CONDITIONS = frozenset({"once", "when", "whenever", "if", "as"})
 """Words that open what has to be before something is done."""
 
 _MORE = frozenset({"another", "other", "others", "also", "too", "more", "else", "still", "then"})
 """Words by which what there is is said of further things."""
+_DENYING = frozenset({"no", "not", "nothing", "neither"})
 _MOVED = frozenset({"rolled", "fallen", "slid", "slipped", "dropped", "tumbled", "landed", "bounced", "jumped",
     "climbed", "crept", "crawled", "hopped", "leapt", "flown", "spilled", "spilt", "escaped"})  # fmt: skip
 _HAVING = "|".join(lexicon.HAVING)
@@ -51,6 +53,8 @@ _LADEN = frozenset({
 
 _HAD = ("of", "with")
 _COUNTING = {"a", "an"} | lexicon.NUMBERS.keys()
+_UNNAMED = frozenset({"items", "objects", "things", "elements"})
+"""Words for several things of which something else says what they are."""
 _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 """What is left when some of several were told of: "the rest are empty"."""
 
@@ -92,26 +96,38 @@ def _cut(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
 
 
 def _contents(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
-    """`tokens` with "the desk is messy: there are a mug and a pen" as "the desk is messy: a mug and a pen".
+    """`tokens` with "the desk is messy. There are a mug and a pen." as "the desk is messy: a mug and a pen".
 
-    So is "The desk is tidy. There are a mug and a pen.", where nothing says where they are.
+    So is "several objects are on a desk. There is a mug. There is a pen.", where nothing says where they are.
     """
-    words = [token.text for token in tokens]
-    made = list(tokens)
-    for at in range(len(words) - 5, 2, -1):
-        there = words[at + 1] == "there" and words[at + 2] in ("is", "are")
-        if words[at] not in (":", ".") or not there or words[at - 1] not in _LADEN:
+    words, made, before, at = [token.text for token in tokens], list[Token](), list[str](), 0
+    while at < len(tokens):
+        stop = next((n for n in range(at + 1, len(words)) if words[n] == "."), 0)
+        there = stop and words[at] in (":", ".") and words[at + 1] == "there" and words[at + 2] in ("is", "are")
+        links = (LINKS.get(tuple(words[n : n + link_at(tokens, n)])) for n in range(at + 3, stop))
+        placed = any(link is not None and link.kind in SUPPORT_KINDS and not link.inverse for link in links)
+        if there and words[at + 3] not in _MORE | _DENYING and not placed and _lists_next(before, nouns):
+            made.append(replace(tokens[at], text="," if ":" in before else ":", mark=True))
+            before.append(":")
+            at += 3
             continue
-        start = next((n + 1 for n in range(at - 1, -1, -1) if words[n] == "."), 0)
-        verb = next((n for n in range(start, at) if words[n] in ("is", "are")), at)
-        table = nouns.match([words[verb - 1]])
-        plain = not any(tokens[n].mark or link_at(tokens, n) for n in range(start, verb))
-        stop = next(n for n in range(at + 1, len(words)) if words[n] == ".")
-        placed = any(link_at(tokens, n) and words[n] not in ("of", "with") for n in range(at + 3, stop))
-        laden = table is not None and nouns.of_class(table.noun, lexicon.LEVEL) and plain
-        if laden and verb in (at - 2, at - 3) and words[start] in ("the", "my", "this", "our") and not placed:
-            made[at : at + 3] = [replace(tokens[at], text=":", mark=True)]
+        before = [] if words[at] == "." else [*before, words[at]]
+        made.append(tokens[at])
+        at += 1
     return made
+
+
+def _lists_next(before: Sequence[str], nouns: Nouns) -> bool:
+    """Whether what follows "the desk is messy" or "several objects are on a desk" is there."""
+    words = before[: before.index(":")] if ":" in before else before
+    verb = max((words.index(word) for word in ("is", "are") if word in words), default=0)
+    laden = verb > 0 and words[-1] in _LADEN and len(words) - verb < 4 and words[0] in ("the", "my", "this", "our")
+    told = {"such", "including", "like", "these", "all"} & {*words}
+    unnamed = bool(_UNNAMED & {*words}) and not told and not known_verb(words[0])
+    table = nouns.match(words[verb - 1 : verb] if laden else words[-1:]) if laden or unnamed else None
+    on_it = unnamed and words[-2:] == ["on", "it"]
+    plain = unnamed or not {"on", "in", "of", "at", "by", "near", ","} & {*words[:verb]}
+    return on_it or (table is not None and plain and nouns.of_class(table.noun, lexicon.LEVEL))
 
 
 def _and_no_more(tokens: Sequence[Token]) -> list[Token]:

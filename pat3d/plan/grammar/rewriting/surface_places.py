@@ -9,11 +9,21 @@ from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
 from pat3d.plan.grammar.words.lexing import Token
-from pat3d.plan.grammar.words.links import WHICH_EDGE
+from pat3d.plan.grammar.words.links import LINKS, WHICH_EDGE
 from pat3d.plan.grammar.words.vocabulary import Nouns
+from pat3d.scene.relations import LATERAL_KINDS
 
 _NEAR = frozenset({"in", "at", "on", "near"})
 _MIDDLES = frozenset({"middle", "center", "centre"})
+_OFF = {
+    "left": "on the left side",
+    "right": "on the right side",
+    "back": "at the back",
+    "behind": "at the back",
+    "front": "at the front",
+    **dict.fromkeys(("slightly", "just", "a", "bit", "little", "and", "to", "the", "in"), ""),
+}
+"""Words before "the center of", and on which side of it is what they are said of."""
 _RIMS = frozenset({"edge", "corner", "rim"})
 _BEHIND = frozenset({"and", "with", "while"})
 """What may follow a place that nothing is said of, beside marks."""
@@ -29,7 +39,7 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     It is the one whose edge, corner or middle the sentence names, or else the only level thing in it. What stands on
     the floor stands in the corner of a room.
     """
-    tokens = _whole(_other_places(_parts_again(tokens, nouns)), nouns)
+    tokens = _whole(_other_places(_parts_again(_by_middles(tokens, nouns), nouns)), nouns)
     words = [token.text for token in tokens]
     told = _told(words, nouns)
     level = {said for at in range(len(words)) if (said := _surface(words[at : at + 3], nouns))}
@@ -55,6 +65,29 @@ def on_the_surface(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         if owner:
             made += [replace(token, text=word) for word in ("of", "the", *owner.split())]
     return made
+
+
+def _by_middles(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "slightly left of the center of the desk" as "on the left side of the desk".
+
+    "A rug in the middle in front of the sofa" is in front of it: the middle is that of the room.
+    """
+    words = [token.text for token in tokens]
+    for at in (n for n in range(2, len(words) - 3) if words[n - 1] == "the" and words[n] in _MIDDLES):
+        after = at + 1 + (words[at + 1] == ",")
+        beside = LINKS.get(tuple(words[after : after + link_at(tokens, after)]))
+        lateral = words[at - 2] in _NEAR and beside is not None and beside.kind in LATERAL_KINDS
+        if lateral and not _small(words[: at - 2], nouns):
+            return [*tokens[: at - 2], *tokens[after:]]
+        start = at - 1 - (words[at - 2] in ("of", "from"))
+        while start and words[start - 1] in _OFF:
+            start -= 1
+        side = next((_OFF[word] for word in words[start : at - 1] if _OFF.get(word)), "")
+        owner = at + 2 + (words[at + 2] in lexicon.DETERMINERS | lexicon.POSSESSIVES)
+        if words[at + 1] == "of" and side and _surface(words[owner : owner + 3], nouns):
+            place = [replace(tokens[start], text=word, end=tokens[at].end) for word in side.split()]
+            return [*tokens[:start], *place, *tokens[at + 1 :]]
+    return tokens
 
 
 def _parts_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

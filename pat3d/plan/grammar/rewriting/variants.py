@@ -28,13 +28,17 @@ all of it = it
 near by = nearby
 has been = is
 have/had been = are
+off center/centre on/in/at = 2
+in the side of = at the side of
+a group/cluster/set/combination containing/comprising =
+a group/cluster/set/combination consisting/composed of =
+a group/cluster/set/combination made up of =
 in side the = inside the
 get rid of = discard
 top up/off the/a/an/my/your = fill 2
 get/take a grip on = grasp
 get/take a firm/good/tight/secure grip on = grasp
 you find/see in/on/under/behind/inside/beside/near = 2
-pile/stack/piles/stacks of papers = 1 of paper
 piece/scrap/slip of paper = sheet of paper
 pieces/scraps/slips of paper = sheets of paper
 not far from = near
@@ -113,6 +117,7 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
 _VARIED = frozenset({"different", "various", "varying", "assorted", "mixed"})
+_PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "paperwork", "manuscripts", "sheets"})
 _OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
 _ASKING = r"(?:(?:could|can|would|will|you|please|kindly) )*"
 _BEGINNINGS = wordings((
@@ -128,7 +133,7 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _many_coloured(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns)
+    usual = _papers(_many_coloured(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns), nouns)
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
@@ -210,6 +215,29 @@ def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
     head = next(n for n in range(1, verb + 1) if n == verb or link_at(tokens, n)) - 1
     same = nouns.match([words[head]]) is not None and words[-2] in (words[head], "one")
     return [*tokens[: verb + 1], replace(said[0], end=tokens[-2].end), tokens[-1]] if same else tokens
+
+
+def _papers(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:
+    """`tokens` with "a stack of parchment", "a pile of white sheets" as "a stack of paper", "a white pile of paper"."""
+    words = [token.text for token in tokens]
+    for at in range(len(words) - 4, -1, -1):
+        stack = {words[at], *singulars(words[at])} & lexicon.STACK_NOUNS and words[at + 1] == "of"
+        head = next((n for n in range(at + 2, min(at + 7, len(words))) if stack and _is_paper(words, n, nouns)), 0)
+        if head and not {*words[at + 2 : head]} & {*lexicon.LEADING, *FINITE, "and", ","}:
+            said = [token for token in tokens[at + 2 : head] if token.text not in _SHEETS | {"of"}]
+            looks = [token for token in said if is_modifier(token.text) or not nouns.match([token.text])]
+            pile = words[at] if nouns.match([words[at], "of", "paper"]) else "pile"
+            paper = replace(tokens[head], text="paper", start=tokens[at + 2].start)
+            tokens = [*tokens[:at], *looks, replace(tokens[at], text=pile), tokens[at + 1], paper, *tokens[head + 1 :]]
+    return tokens
+
+
+def _is_paper(words: Sequence[str], at: int, nouns: Nouns) -> bool:
+    """Whether the name at `at` ends there and is of sheets: "documents", but no "paper plates", no "toilet paper"."""
+    spans = (words[at : at + 1], words[at - 1 : at + 1], words[at : at + 2])
+    own, before, after = ((found := nouns.match(each)) and found.noun for each in spans)
+    whole = before in (None, _PAPER) or words[at - 1] == "parchment"
+    return (own == _PAPER or words[at] in _SHEETS) and whole and not after and words[at + 1] != "of"
 
 
 def _compared(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

@@ -121,6 +121,7 @@ BACKGROUND = frozenset({"room", "setup", "set-up", "scene", "background", "backd
     "sunrise", "midnight", "noon", "ambiance", "ambience", "observer", "viewer", "gym", "gymnasium", "shed",
     "pair view", "suite", "total", "sight", "time", "place", "contrast", "focus", "motion", "condition", "orientation",
     "direction", "user", "manner", "way", "fashion", "use", "close up", "grain patterns", "windows",
+    "staircase", "staircases", "stairs", "stairway", "stairwell",
     "nook", "alcove", "kitchenette", "bistro", "diner", "boutique", "atelier", "conservatory", "cubicle"})  # fmt: skip
 """Heads of phrases about place, camera and mood: recognised, set aside, never placed."""
 ITEMS = frozenset({"following", "items", "item", "objects", "object", "things", "everything", "all", "contents",
