@@ -59,7 +59,7 @@ def test_a_wish_for_a_scene_is_made(prompt: str, there: set[str]):
     assert plan.task is None
 
 
-@pytest.mark.parametrize("prompt", ["I want the fridge open.", "I'd like the left door of the dresser closed."])
+@pytest.mark.parametrize("prompt", ["I want the oven open.", "I'd like the left door of the dresser closed."])
 def test_what_is_wanted_open_is_not_fetched(prompt: str):
     plan = planned(prompt)
     assert plan.task is None

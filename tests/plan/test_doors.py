@@ -51,6 +51,17 @@ def test_case_and_door_share_what_is_said_of_them():
     assert not plan.notes
 
 
+@pytest.mark.parametrize(
+    ("sentence", "task"),
+    [("Get the key from the cabinet, then close it.", "pick:key"),
+     ("Take the apple out of the drawer and close it.", "pick:apple")],
+)  # fmt: skip
+def test_what_is_closed_after_something_is_picked_up_is_noted(sentence, task):
+    plan = PLANNER.plan(sentence)
+    assert plan.task == task
+    assert any("nothing is closed after something is picked up" in note for note in plan.notes)
+
+
 def test_what_is_in_it_and_on_it_stays_there():
     plan = PLANNER.plan("A mug is in the microwave and a bowl is on the microwave. Close the microwave.")
     assert {str(rel) for rel in plan.relations} == {

@@ -51,11 +51,11 @@ def test_a_later_sentence_of_a_quality_is_set_aside(sentence, noted):
     ("sentence", "fault"),
     [
         ("A plum in a bowl, guarded by a dragonfly.", "dragonfly"),
-        ("A rug held down by an anvil.", "anvil"),
+        ("A rug held down by a bagpipe.", "bagpipe"),
         ("A mug next to a jar, humming beside a lathe.", "lathe"),
         ("A plum on a stand.", "stand"),
-        ("A bucket and a banana peel.", "peel"),
-        ("A plum lies in a bowl. A weathervane delights the eye.", "weathervane"),
+        ("A bucket and an onion peel.", "peel"),
+        ("A plum lies in a bowl. A turret delights the eye.", "turret"),
         ("A mug is not on the table.", '"not"'),
     ],
 )

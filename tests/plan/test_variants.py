@@ -29,7 +29,7 @@ def planner() -> GrammarPlanner:
         ("Put the ruler back in the drawer.", "Put the ruler in the drawer."),
         ("Reach for the mug on the tray and pick it up.", "Pick up the mug on the tray."),
         ("Stacking a mug on a plate.", "Stack a mug on a plate."),
-        ("Build a tower using three red cubes.", "A tower of three red cubes."),
+        ("Build a tower using three red cubes.", "Stack the three red cubes."),
         ("There seems to be a vase behind the clock.", "A vase is behind the clock."),
         ("In this photo we can see a mug on a tray.", "A mug on a tray."),
         ("A toaster stands not far from the kettle.", "A toaster stands near the kettle."),
@@ -73,7 +73,7 @@ def test_both_give_one_scene(planner: GrammarPlanner, sentence: str, same: str):
     [
         ("Swap the positions of the jar and the mug.", "Swap the positions of the jar and the mug"),
         ("Have the jar and the mug trade places.", "Have the jar and the mug trade places"),
-        ("Push and close the fridge.", "Push and close the fridge"),
+        ("Push and close the oven.", "Push and close the oven"),
         ("Put the bolts in the jar and do not touch anything else.", "do not touch anything else"),
         ("A cut in half lemon lies on a plate.", "cut-in-half"),
         ("Three mugs stand on the tray at random locations.", "at random locations"),
@@ -121,7 +121,7 @@ def test_what_has_to_be_before_is_there_and_noted(planner: GrammarPlanner, sente
     ("sentence", "words"),
     [
         ("A sewing contraption stands on a desk.", '"sewing contraption"'),
-        ("A bandsaw rests heavily on a table.", '"bandsaw"'),
+        ("A trebuchet rests heavily on a table.", '"trebuchet"'),
         ("A mug stands on a stand.", '"stand" is not in the catalogue'),
         ("Move the door to the left.", '"door"'),
     ],

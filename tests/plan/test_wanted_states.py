@@ -19,6 +19,7 @@ def _relations(plan):
     [
         ("Make sure the book is on the shelf.", "place:book:shelf"),
         ("Please ensure that the red cup is on the tray.", "place:red cup:tray"),
+        ("Make sure there is a cup on the table.", "place:cup:table"),
         (
             "Ensure that the mug is next to the kettle, then put the spoon in the mug.",
             "chain:beside:mug:next_to:kettle:then:place:spoon:mug",
@@ -93,7 +94,6 @@ def test_what_no_task_brings_about_is_told_and_not_there(text, said):
         ("Create a scene with a cup and a plate. Make sure the cup is on the plate.", ("cup", "on", "plate")),
         ("Place a mug on a shelf. Make sure the mug is next to a bowl.", ("mug", "on", "shelf")),
         ("The cup should be on the tray. The tray is on a bench.", ("cup", "on", "tray")),
-        ("Make sure there is a cup on the table.", ("cup", "on", "table")),
         ("A globe is at the end of the shelf.", ("globe", "on", "shelf")),
     ],
 )

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 from pat3d.plan.audit.compared import Compared
 from pat3d.plan.audit.words import DEEDS
+from pat3d.scene.task_spec import steps_of
 
 _MOVING = frozenset({"take", "bring", "carry", "move", "deliver", "transfer", "return", "push", "slide", "get"})
 _PUTTING = frozenset({"put", "place", "move", "set", "lay", "insert", "drop", "stack", "pick"})
 _REACH = 12
 """Words from what is taken to where it is taken."""
-_SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave"})
+_SHUT = frozenset({"bag", "backpack", "handbag", "suitcase", "briefcase", "fridge", "microwave", "toaster", "dryer",
+                   "fryer", "cooker"})  # fmt: skip
 _DEPTHS = frozenset({"bottom", "back", "rear", "front", "far"})
 _GOALS = frozenset({"of", "to", "into", "onto", "in", "on"})
 _FURTHER = frozenset({"another", "more", "further", "third", "fourth", "extra", "second", "other", "new", "else"})
@@ -28,6 +30,7 @@ def requests(it: Compared) -> Iterator[tuple[int, str]]:
     yield from _below(it)
     yield from _handed(it)
     yield from _out_of(it)
+    yield from _emptied_into(it)
 
 
 def _taken_to(it: Compared) -> Iterator[tuple[int, str]]:
@@ -165,3 +168,16 @@ def _out_of(it: Compared) -> Iterator[tuple[int, str]]:
         upon = [rel for rel in it.plan.relations if rel.kind == "on" and rel.parent in vessels]
         for rel in upon[:1]:
             yield claim.at, f'not arranged: "{rel.child}" inside "{claim.of.text}"; it is placed on it'
+
+
+def _emptied_into(it: Compared) -> Iterator[tuple[int, str]]:
+    """Where what is in a box is to go, of which a task that empties the box tells nothing."""
+    emptied = {names[0] for kind, *names in steps_of(it.plan.task or "") if kind == "unload"}
+    for claim in it.said.claims if emptied else ():
+        goals = (
+            {obj.name for obj in it.which(claim.of)}
+            if claim.of is not None and claim.said[:3] in ("in ", "on ")
+            else set()
+        )
+        if goals and not goals & (emptied | {b for _, _, b in it.edges}) and not it.named(claim.said):
+            yield claim.at, f'not as said: "{claim.said}"; the task is to empty'

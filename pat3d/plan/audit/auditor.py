@@ -278,6 +278,8 @@ class _Auditor(Compared):
             endless = any(mention.plural and mention.number is None for mention in known)
             endless = endless or self._repeated(mentions) or self._headless()
             endless = endless or any(had_by_each(self, mention) for mention in mentions)
+            # "The second crate", where no other is told of
+            endless = endless or (len(mentions) == 1 and bool(mentions[0].lead & {*ORDINALS, "first"}))
             # "A candle at both ends", "on all three plates"
             pairs = pairwise(self.said.words)
             endless = endless or any(

@@ -32,7 +32,7 @@ from pat3d.plan.audit.words import (
 )
 from pat3d.scene.relations import OPPOSITE, RELATION_WORDS
 
-_SEVERAL = (REPEATS - EACH) | {"second", "third"}
+_SEVERAL = (REPEATS - EACH) | {"second", "third", "fourth", "fifth"}
 """Words by which there are several of what is named in the singular."""
 _AS_MANY = re.compile(r"as many|\b(?:same|equal|twice the|half the|double the|times the) (?:number|amount)")
 _TENS = re.compile(r".*(teen|ty)|twenty-.*|hundred")

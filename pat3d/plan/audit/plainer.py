@@ -34,7 +34,7 @@ _PLAINER = tuple((re.compile(said), plain) for said, plain in (
     (r"\bas many ((?:[a-z-]+ ){1,3})as\b", r"\1and"),
     (r"\bas many\b(?! as\b)", "several"),
     (r", such as\b", ","),
-    (r"\b\w+ such as\b ?", ""),
+    (rf"\b(?:(?:\d+|{_SEVERAL}) )?\w+ such as\b ?|,? (?:and )?etc\b[.]?", ""),
     (r"\bnothing (?:but |except |else is (?!.*\bbut\b)[^.;:,]*)", ""),
     (rf"\b(?:is|are) {_EMPTY} (?:except|apart|aside|but|save)(?: for| from)?\b", "holds"),
     (r"\bnot far (?:away )?from\b", "near"),

@@ -38,6 +38,9 @@ _NEIGHBOURS = frozenset({"pair", "neighbour", "neighbor", "neighbouring", "neigh
 _IN_ROWS = frozenset({"form", "forms", "neat", "tidy", "orderly", "straight", "even"})
 """What a row does and is."""
 
+_BUILT = frozenset({"tower", "pile", "column", "construct", "erect", "assemble"})
+"""What is asked for by tasks of stacking."""
+
 
 def unheard(it: Compared) -> list[tuple[int, str]]:
     """Words that are in no name, in no phrase of an object and in no note, and mean something."""
@@ -130,6 +133,8 @@ def _shapes(it: Compared) -> frozenset[str]:
         for one in it.plan.arrangements
         if one.kind == "row"
     )
+    stacked_in_turn = [names for kind, *names in steps_of(it.plan.task or "") if kind == "stack"]
+    alternating |= len(stacked_in_turn) > 1 and all(colours[one] != colours[two] for one, two in stacked_in_turn)
     return (
         frozenset({"alternate", "alternates", "alternately", "alternating"} if alternating else ())
         | frozenset({"pyramid"} if heaped else ())
@@ -137,7 +142,7 @@ def _shapes(it: Compared) -> frozenset[str]:
         | frozenset({"tower", "towers", "piles", "stacks", "high", "vertically"} if stacked else ())
         | {one.said for one in it.plan.postures}
         | frozenset({"vertically"} if "dish rack" in nouns.values() else ())
-        | frozenset({"tower", "pile"} if "stack:" in it.tasks else ())
+        | (_BUILT if "stack:" in it.tasks else frozenset[str]())
         | frozenset({"circle", "ring"} if round_about else ())
         | frozenset({"flat", "tipped", "toppled", "fallen", "knocked"} if lying else ())
         | frozenset({"ends"} if ended else ())

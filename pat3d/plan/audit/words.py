@@ -225,7 +225,7 @@ bottom upper topmost leftmost rightmost lower pieces piece very quite just reall
 would
 like several animals want see imagine show create make build corners he she they namely whereas itself themselves
 himself herself now still appliances
-already image possible you'll littering appreciate locate finally sure ensure find finds generate remaining
+already image possible you'll littering appreciate locate finally sure certain ensure find finds generate remaining
 exist exists
 yesterday today currently simply form forms forming appears appear x count slightly except
 however moreover furthermore additionally therefore thus hence consequently specifically notably naturally obviously

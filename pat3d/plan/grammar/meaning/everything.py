@@ -40,7 +40,7 @@ class Everything(Placing):
         """What "everything" at `heads` is that is moved to `goal`: all that is there, or is on what is said with it."""
         world = self._world
         said = [self._chunks[head].named for head in heads]
-        every = all(phrase.words.lower().startswith(("everything", "all")) for phrase in said)
+        every = all(phrase.words.lower().startswith(("everything", "all", "what")) for phrase in said)
         plain = every and all(phrase.modifiers == NO_MODIFIERS for phrase in said)
         if not plain or not self._is_items(heads) or self._said.ref_all(heads):
             return []

@@ -97,10 +97,20 @@ def task_of(world: World, names: Mapping[Item, str]) -> tuple[str | None, list[s
     specs = _moved_once(dict.fromkeys(specs))
     if len(specs) < STEPS[0]:
         return (specs[0] if specs else None), notes
-    if (chain := chain_of(specs)) is None:
+    if (chain := chain_of(specs)) is None and (shorter := _unclosed(specs)) != specs:
+        last = ", ".join(specs[len(shorter) :])
+        notes.append(f"not modelled: {last}: nothing is closed after something is picked up.")
+        return shorter[0] if len(shorter) < STEPS[0] else chain_of(shorter), notes
+    if chain is None:
         listed = ", ".join(specs)
         notes.append(f"{SEVERAL} {listed}.")
     return chain, notes
+
+
+def _unclosed(specs: list[str]) -> list[str]:
+    """`specs` without what is closed at their end, where they are a task without it."""
+    left = specs[: max((at + 1 for at, spec in enumerate(specs) if not spec.startswith("close:")), default=0)]
+    return left if len(left) == 1 or chain_of(left) is not None else specs
 
 
 def _moved_once(specs: Iterable[str]) -> list[str]:

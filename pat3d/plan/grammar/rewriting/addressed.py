@@ -99,8 +99,9 @@ def _without_name(tokens: Sequence[Token]) -> list[Token]:
     at = _greeted(words)
     named = at + (words[at] in _TOLD)
     end = named + (words[named] in (",", ":") and named > 0)
-    if end and words[end] == ".":
-        # "Hello! Put the cup away."
+    hailed = bool(at) and words[0] in _HAILING and len(words) < at + 4
+    if end and (words[end] == "." or (hailed and words[-1] == "." and not any(map(known_verb, words[:-1])))):
+        # "Hello! Put the cup away.", "Hello, kitchen robot. Put the cup away."
         return [tokens[-1]]
     if named > at and _commands(words[end:]) and (end > named or at):
         return _without_name_behind(tokens[end:])

@@ -9,12 +9,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.english import plural
 from pat3d.plan.grammar.rewriting.errands import FILLING
-from pat3d.plan.grammar.rewriting.instructions import VERBS
+from pat3d.plan.grammar.rewriting.instructions import VERBS, known_verb
 from pat3d.plan.grammar.rewriting.wielded import noun_of, wielded
-from pat3d.plan.grammar.words import lexicon, vessels
+from pat3d.plan.grammar.words import lexicon, postures, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
+from pat3d.plan.grammar.words.number_words import ORDINALS
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
 _OPENING = frozenset({"and", "then", ",", "please"})
@@ -25,13 +27,61 @@ _OTHERWISE = frozenset({"from", "of", "out", "off", "that", "which", "and", "or"
 _SWAPPING = frozenset({"swap", "exchange", "trade", "switch"})
 _TO = frozenset({"with", "into", "onto", "to"})
 _AGAIN = ("do", "the", "same")
+_FROM_AN_END = (("from", "the", "left"), ("from", "the", "right"), ("in", "the", "row"), ("in", "the", "line"))
+_ARRANGED = lexicon.STACK_NOUNS | lexicon.ROWS | {"top", "bottom"}
+_STATES = {"open": "open", "opened": "open", "closed": "closed", "shut": "closed", "empty": "empty"}
 _TOPS = (lexicon.LEVEL, lexicon.SEATS, lexicon.DISHES, lexicon.THIN)
 _CLEANING = frozenset({"wipe", "clean", "scrub", "sweep", "polish", "vacuum", "mop"})
 
 
 def told_before(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
     """`sentence` behind what it tells of how things stand before it."""
-    return _exchanged(sentence, nouns) or _around(sentence, nouns) or _carrying(sentence, nouns)
+    told = _exchanged(sentence, nouns) or _around(sentence, nouns) or _as_it_is(sentence, nouns)
+    return told or _carrying(sentence, nouns)
+
+
+def several_told_by_rank(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "there are some crates" before "take the pen out of the second crate", of which no other is told.
+
+    "The second crate from the left" is one of a row.
+    """
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 2):
+        name = at + 2 + next((n for n in (3, 2, 1) if nouns.match(words[at + 2 : at + 2 + n])), 0)
+        start = next((n + 1 for n in range(at, -1, -1) if words[n] == "."), 0)
+        rank = ORDINALS.index(words[at + 1]) if words[at] == "the" and words[at + 1] in ORDINALS else -1
+        row = tuple(words[name : name + 3]) in _FROM_AN_END
+        if name == at + 2 or rank < 1 - row or words[name - 1] in lexicon.PARTS or singulars(words[name - 1]):
+            continue
+        many = plural(words[name - 1])
+        others = {words[name - 1], many, "one", "ones"} & {*words[:at], *words[name:]}
+        others |= _ARRANGED & {*words[start:at], *words[name + 3 * row :]}
+        if others or not any(map(known_verb, words[start : start + 2])):
+            continue
+        number = {2: "several", 3: "several", 4: "many"}.get(rank, "some")
+        several = [number, *words[at + 2 : name - 1], many]
+        said = [*several, "are", "in", "a", "row", "."] if row else ["there", "are", *several, "."]
+        there = [replace(tokens[at], text=word, end=tokens[name - 1].end, mark=word == ".") for word in said]
+        return several_told_by_rank([*tokens[:start], *there, *tokens[start:]], nouns)
+    return list(tokens)
+
+
+def _as_it_is(sentence: list[Token], nouns: Nouns) -> list[list[Token]]:
+    """Tell "with a pen in the box, close the box" as "a pen is in the box", "close the box"; so of what is open."""
+    words = [token.text for token in sentence]
+    comma = next((n for n in range(3, len(words) - 2) if words[n] == "," and known_verb(words[n + 1])), 0)
+    made, rest = list[list[Token]](), list(sentence[1:comma])
+    while rest and words[0] == "with":
+        stop = next((n for n in range(2, len(rest)) if rest[n].text in (",", "and")), len(rest))
+        part, rest = rest[:stop], rest[stop + 1 :]
+        verb = next((n for n in range(2, len(part)) if part[n].text in _STATES or postures.is_posture(part[n].text)
+                     or (link_at(part, n) and part[n].text != "of")), 0)  # fmt: skip
+        thing = noun_of([token.text for token in part[:verb]], nouns)
+        if part[0].text not in _LEADS | lexicon.DETERMINERS | lexicon.NUMBERS.keys() or thing is None:
+            return []
+        where = [replace(part[verb], text=_STATES.get(part[verb].text, part[verb].text)), *part[verb + 1 :]]
+        made.append(_told(part[:verb], where, many=thing.plural))
+    return [*made, sentence[comma + 1 :]] if made else []
 
 
 def ones_named(told: Sequence[list[Token]], nouns: Nouns) -> list[list[Token]]:

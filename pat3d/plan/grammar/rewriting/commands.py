@@ -7,16 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from pat3d.plan.grammar.rewriting.errands import left_alone
-from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back, together
+from pat3d.plan.grammar.rewriting.outcomes import TAKING, closed, put_back
+from pat3d.plan.grammar.rewriting.wordings import LEAD, reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
-from pat3d.plan.grammar.words.lexing import Token
+from pat3d.plan.grammar.words.lexing import Token, singulars
 from pat3d.plan.grammar.words.links import FINITE
+from pat3d.plan.grammar.words.number_words import ORDINALS, numeral
 from pat3d.plan.grammar.words.unmade import base_verb
 
-_GIVING = frozenset({"hand", "give", "bring", "pass", "fetch", "get"})
 _FORBIDDING = (("make", "sure", "not", "to"), ("be", "sure", "not", "to"), ("take", "care", "not", "to"), ("do", "not"),
                ("don't",), ("never",))  # fmt: skip
 _FINDING = frozenset({"find", "locate", "choose", "select", "get", "retrieve", "identify", "collect"})
@@ -33,10 +35,7 @@ _THEN = frozenset({"then", "next", "now", "and", "finally", ",", "please", "also
 _STOWING = frozenset({"put", "stow", "store", "tidy", "pack", "clear", "place", "file", "tuck", "set"})
 _PLACING = frozenset({"in", "into", "inside", "on", "onto", "under", "behind", "next"})
 SORTS = frozenset({"color", "colour", "size", "shape", "type", "kind", "colors", "colours"})
-_HANDING = (["give"], ["hand"], ["pass"])
-_SWAPPING = frozenset({"swap", "trade", "switch", "exchange", "interchange"})
-_PLACES = frozenset({"places", "positions", "place", "position", "locations", "spots", "location"})
-_BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect"})
+_BUILDING = frozenset({"make", "build", "create", "form", "construct", "erect", "assemble"})
 _UNTOLD = frozenset({"pyramid", "wall", "bridge", "arch", "staircase", "house", "castle", "fort"})
 """What is built in no task."""
 _FORMS = frozenset({"tower", "stack", "pile", "column", "row", "line", "circle", "ring"}) | _UNTOLD
@@ -44,11 +43,28 @@ _MADE_OF = (("of",), ("out", "of"), ("from",), ("with",), ("using",), ("by", "st
 _THERE = lexicon.DEFINITE | lexicon.POSSESSIVES | {"them", "all", "both"}
 """What speaks of things that are there."""
 _RECEIVERS = lexicon.VIEWERS | {"person", "human", "user", "man", "woman", "operator"}
+_SWAP = r"(?:swap|trade|switch|exchange|interchange) "
+_PLACES = r"(?:[^ ]+ ){0,2}(?:place|position|location|spot)s? "
+_WORDINGS = wordings((
+    (r"(?<!a )(?<!the )(line )((?:(?!(?:up|on|in|to|of|with|from|next|at|by) )[^ .,:;]+ )+)up ", r"\1 up \2"),
+    (rf"(?<![^.,;:dn] )((?:lay|set|spread) )out (?={LEAD})", r"\1"),
+    (r"(?<![^.,;:dn] )lay down ", "put down"),
+    # "Swap the positions of the cup and the can", "have the cup and the can trade places"
+    (rf"({_SWAP}){_PLACES}(?:of|between) ", r"\1"),
+    (rf"(?<!. )(?:have |let |make )?([^.,]* and [^.,]*?){_SWAP}{_PLACES}(?=[.,])", r"swap \1"),
+    # Of two that are parted neither is on the other.
+    (rf"(?<!. )((?:separate|part|distinguish) {LEAD}[^.,:;]*?)from (?={LEAD})", r"\1 and"),
+    (rf"(?:give|hand|pass) the (?:{'|'.join(_RECEIVERS)}) (?={LEAD})", "fetch"),
+    (r"((?:build|make|create|construct) )(?:me|us) ", r"\1"),
+    (r"((?:build|make|create|construct) [^.,]*)for (?:me|us) (?=[.,])", r"\1"),
+    (r"(?:hand|give|bring|pass|fetch|get) (?:me|us) ", "fetch"),
+    (r"give ((?:[^ ]+ )*?)to (?:me|us) ", r"fetch \1"),
+))  # fmt: skip
 
 
 def commanded(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` of one sentence with its instructions in plainer words."""
-    told = _parted(_swapped(put_back(together(closed(_in_full(_idioms(tokens)))))))
+    told = reworded(put_back(closed(_in_full(_idioms(tokens)))), _WORDINGS)
     return _handed(_fronted(_place_first(_ordered(_told_once(_lined_up(_built(told)))))))
 
 
@@ -127,44 +143,12 @@ def _by_doing(tokens: Sequence[Token]) -> Sequence[Token]:
     return made
 
 
-def _swapped(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "swap the positions of the cup and the can" as "swap the cup and the can", "trade places" too."""
-    words = [token.text for token in tokens]
-    verb = next((at for at, word in enumerate(words[:-2]) if word in _SWAPPING), None)
-    if verb is None:
-        return tokens
-    place = next((at for at in range(verb + 1, min(verb + 4, len(words))) if words[at] in _PLACES), 0)
-    if place and words[place + 1] in ("of", "between"):
-        return [*tokens[: verb + 1], *tokens[place + 2 :]]
-    if place and tokens[place + 1].mark and verb > 2 and "and" in words[:verb]:
-        # "Have the cup and the can trade places."
-        first = 1 if words[0] in ("have", "let", "make") else 0
-        asked = replace(tokens[verb], start=tokens[0].start, end=tokens[0].end)
-        last = replace(tokens[verb - 1], end=tokens[place].end)
-        return [asked, *tokens[first : verb - 1], last, *tokens[place + 1 :]]
-    return tokens
-
-
-def _parted(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "separate the cup from the bowl" as "separate the cup and the bowl": neither is on the other."""
-    words = [token.text for token in tokens]
-    led = words[0] in ("separate", "part", "distinguish") and words[1] in lexicon.DETERMINERS
-    at = next((n for n in range(2, len(words) - 2) if tokens[n].mark or words[n] == "from"), 0) if led else 0
-    if not at or words[at] != "from" or words[at + 1] not in lexicon.DETERMINERS:
-        return tokens
-    return [*tokens[:at], replace(tokens[at], text="and"), *tokens[at + 1 :]]
-
-
 def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf", "lay out" as "lay"."""
+    """`tokens` with "line up the jars on the shelf" as "arrange the jars in a row on the shelf"."""
     words = [token.text for token in tokens]
     for at in range(len(words) - 3):
         led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please")
         follower = words[at + 2] in lexicon.DETERMINERS | lexicon.NUMBERS.keys() | lexicon.POSSESSIVES
-        if led and follower and words[at] in ("lay", "set", "spread") and words[at + 1] == "out":
-            return [*tokens[: at + 1], *tokens[at + 2 :]]
-        if led and words[at : at + 2] == ["lay", "down"]:
-            return [*tokens[:at], replace(tokens[at], text="put"), *tokens[at + 1 :]]
         if not (led and follower and words[at : at + 2] == ["line", "up"]):
             continue
         end = next(n for n in range(at + 2, len(words)) if tokens[n].mark or link_at(tokens, n))
@@ -174,33 +158,64 @@ def _lined_up(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _built(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "build a tower out of the three cubes" as "stack the three cubes", and a row as "arrange ...".
+    """`tokens` with "build a tower of three cubes" as "stack the three cubes", and a row of the cubes as "arrange ...".
 
-    "Build a tower of three cubes" makes them up, and of "build a pyramid from these six cups" none is built before.
+    "Build a row of three cubes" makes them up, and of "build a pyramid from these six cups" none is built before.
     """
     words = [token.text for token in tokens]
     for at in range(len(words) - 5):
-        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "to")
+        led = not at or tokens[at - 1].mark or words[at - 1] in ("and", "then", "please", "to", "you")
         form = at + 2 + (words[at + 1] == "a" and words[at + 2] not in _FORMS)
         if not led or words[at] not in _BUILDING or words[at + 1] != "a" or words[form] not in _FORMS:
             continue
         size = next((len(said) for said in _MADE_OF if tuple(words[form + 1 : form + 1 + len(said)]) == said), 0)
         things = form + 1 + size
-        goes_on = any(
-            words[n] == "then" or (words[n] == "and" and base_verb(words[n + 1]) == words[n + 1])
-            for n in range(things, len(words) - 1)
-        )
+        piled, untold = words[form] in lexicon.TOWERS, words[form] in _UNTOLD
+        later = (n for n in range(things, len(words) - 1) if words[n] == "then" or (
+            words[n] == "and" and base_verb(words[n + 1]) == words[n + 1]))  # fmt: skip
+        goes_on = next(later, len(words))
+        goes_on = goes_on < len(words) and (not piled or bool({"it", "them", "top", "one"} & {*words[goes_on:]}))
+        end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
+        first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
+        if size and piled and (turns := _by_turns(tokens[:at], tokens[at], tokens[things:end])):
+            return [*turns, *tokens[end:]]
+        stop = next((n for n in range(things, first) if words[n] in (",", "and", "then", "with", "each")), first)
+        placed = words[stop] in (".", ",", "and", "then") or words[stop + link_at(tokens, stop)] in _THERE
+        placed = placed and piled and not _FORMS & {*words[stop:]}
+        if size and placed and not goes_on and singulars(words[stop - 1]) and words[things] not in _THERE:
+            tokens = [*tokens[:things], replace(tokens[things], text="the"), *tokens[things:]]
+            return _built(tokens)
         if not size or words[things] not in _THERE or goes_on:
             # "Make a tower of the red and the blue brick and place the green one on it": that one is to be placed.
             continue
-        end = next(n for n in range(things, len(words)) if words[n] == "." or (tokens[n].mark and words[n] != ","))
-        first = next((n for n in range(things, end) if link_at(tokens, n) and words[n] != "of"), end)
-        piled, untold = words[form] in lexicon.TOWERS, words[form] in _UNTOLD
         verb = "assemble" if untold else "stack" if piled else "arrange"
         deed = replace(tokens[at], text=verb, end=tokens[form].end)
         how = [] if piled or untold else [replace(tokens[form], text=word) for word in ("in", "a", words[form])]
         return [*tokens[:at], deed, *tokens[things:first], *how, *tokens[first:]]
     return tokens
+
+
+def _by_turns(before: Sequence[Token], verb: Token, things: Sequence[Token]) -> list[Token]:
+    """The deeds by which "4 alternating red and white cubes, red at the bottom" come to be a tower, behind `before`."""
+    words = [token.text for token in things]
+    at = words.index("alternating") if "alternating" in words else len(words)
+    if at > 1 or words[at + 2 : at + 3] != ["and"] or not singulars("".join(words[at + 4 : at + 5])):
+        return []
+    colours, rest = [things[at + 1], things[at + 3]], words[at + 5 :]
+    count = next((numeral(word) for word in words[:at]), 0) or 4
+    if count > 2 * len(ORDINALS):
+        return []
+    highest = {"top", "above"} & {*rest}
+    lowest = next((n for n, colour in enumerate(colours) if colour.text in rest), 0)
+    lowest = (lowest + count - 1) % 2 if highest else lowest
+    name = replace(things[at + 4], text=next(iter(singulars(words[at + 4]))))
+    made = list[list[Token]]()
+    for n in range(count):
+        rank = [replace(name, text=ORDINALS[n // 2])] if n // 2 or count > n + 2 else []
+        made.append([replace(name, text="the"), *rank, colours[(n + lowest) % 2], name])
+    stack, on, joint = (replace(verb, text=word) for word in ("stack", "on", "and"))
+    deeds = [[joint, stack, *upper, on, *lower] for lower, upper in pairwise(made)]
+    return [*before, *[token for deed in deeds for token in deed][1:]]
 
 
 def _told_once(tokens: Sequence[Token]) -> Sequence[Token]:
@@ -290,10 +305,9 @@ def _fronted(tokens: Sequence[Token]) -> Sequence[Token]:
 
 
 def _handed(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "hand me the cup" as "fetch the cup"."""
+    """`tokens` with "hand over the cup" as "fetch the cup"."""
     made: list[Token] = []
     told = {token.text for token in tokens}
-    given = next((at for at, token in enumerate(tokens) if token.text == "give"), None)
     for at, token in enumerate(tokens):
         before, follower = (made[-1].text if made else ""), tokens[min(at + 1, len(tokens) - 1)].text
         if token.text == "first" and before == ":" and follower in lexicon.DETERMINERS:
@@ -307,12 +321,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
             (token.text == "by" and follower in SORTS) or (token.text in SORTS and tokens[at - 1].text == "by")
         ):
             continue
-        given_to = token.text in _RECEIVERS and before == "the" and [each.text for each in made[-2:-1]] in _HANDING
-        if given_to and follower in lexicon.DETERMINERS:
-            # "Give the robot the cup"
-            made.pop()
-            made[-1] = replace(made[-1], text="fetch")
-            continue
         led = follower in lexicon.DEFINITE | lexicon.POSSESSIVES
         if token.text == "over" and before in ("hand", "pass") and led and not _leads_on(tokens, at):
             # "Hand over the hammer."
@@ -322,14 +330,6 @@ def _handed(tokens: Sequence[Token]) -> list[Token]:
         if gathers and led and not {"in", "into", "on", "onto", "to"} & told:
             # "Collect the coins from under the bench": nothing is said of where they go.
             token = replace(token, text="gather")
-        if token.text in ("me", "us") and before in _GIVING:
-            made[-1] = replace(made[-1], text="fetch")
-            continue
-        if token.text in ("me", "us") and before == "to" and given is not None and given < len(made):
-            # "Give the cup to me"
-            made[given] = replace(made[given], text="fetch")
-            made.pop()
-            continue
         leads = token.text in ("pass", "hand") and (not at or tokens[at - 1].mark or before in _THEN)
         if leads and follower in lexicon.DEFINITE | lexicon.POSSESSIVES and not _leads_on(tokens, at):
             # "Pass the hammer."

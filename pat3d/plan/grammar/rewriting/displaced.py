@@ -10,6 +10,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from pat3d.plan.grammar.rewriting.colons import goals_of, places_of
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
@@ -21,6 +22,17 @@ from pat3d.scene.relations import LATERAL_KINDS, SUPPORT_KINDS
 
 NEARNESS = frozenset({"closer", "closest", "nearer", "nearest"})
 _TAKING = frozenset({"pick", "grab", "lift", "grasp"})
+_SOME = rf"(?:{'|'.join(lexicon.NUMBERS)}) |the (?:{'|'.join(lexicon.SUPERLATIVES)}) "
+_MEMBERS = wordings(
+    (
+        (rf"of which ({_SOME})(?=(?:{'|'.join(STANDING)}) )", r"\1 of which"),
+        # "Two planks, one leaning against the other"
+        (r"(, one )(leaning )[^ ]+ (?=[^ ]+ other )", r"\1 of them \2 against"),
+    )
+)
+_BARE = r"(?<!the )(?<!its )((?:left|right) )"
+_SIDES = wordings(((rf"{_BARE}(and [^.]*?){_BARE}(?=of )", r"to the \1 \2 to the \3"),))
+"""A fork left and a knife right of a plate"""
 _SIDE_WORDS = frozenset({"left", "right", "side"})
 
 
@@ -33,7 +45,7 @@ def in_place(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         replace(token, text="next") if token.text in ("nearest", "closest") and follower.text == "to" else token
         for token, follower in pairwise([*_nearer(tokens, nouns), tokens[-1]])
     ]
-    return _shared_landmark(_last_in_order(_verb_again(_of_which(_one_upon(tokens)))))
+    return _shared_landmark(_last_in_order(_verb_again(reworded(tokens, _MEMBERS))))
 
 
 def _nearer(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
@@ -154,32 +166,6 @@ def which_bears(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     return list(tokens)
 
 
-def _one_upon(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "two planks, one leaning against the other" as "one of them leaning against the other"."""
-    words = [token.text for token in tokens]
-    for at in range(len(words) - 4):
-        if words[max(at - 1, 0) : at + 1] == [",", "one"] and words[at + 1] == "leaning" and words[at + 4] == "other":
-            of, them, against = (replace(tokens[at + 2], text=word) for word in ("of", "them", "against"))
-            return [*tokens[: at + 1], of, them, tokens[at + 1], against, *tokens[at + 3 :]]
-    return list(tokens)
-
-
-def _of_which(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "three apples, of which one is green" as "three apples, one of which is green"."""
-    words = [token.text for token in tokens]
-    for at in range(1, len(words) - 4):
-        if words[at : at + 2] != ["of", "which"]:
-            continue
-        the = words[at + 2] == "the"
-        verb = at + 3 + the
-        some = words[verb - 1] in (lexicon.SUPERLATIVES if the else lexicon.NUMBERS)
-        if some and words[verb] in STANDING:
-            turned = [*tokens[at + 2 : verb], *tokens[at : at + 2]]
-            start, end = tokens[at].start, tokens[verb - 1].end
-            return [*tokens[:at], *(replace(token, start=start, end=end) for token in turned), *tokens[verb:]]
-    return list(tokens)
-
-
 def _last_in_order(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "on it stand, in a row, a clock and a lamp" as "on it stand a clock and a lamp in a row"."""
     words = [token.text for token in tokens]
@@ -228,7 +214,7 @@ def _shared_landmark(tokens: Sequence[Token]) -> list[Token]:
 
     a knife to the right of the plate".
     """
-    tokens = _full_sides(tokens)
+    tokens = reworded(tokens, _SIDES)
     words = [token.text for token in tokens]
     sides = [at for at in range(len(words) - 3) if words[at] in ("to", "on") and words[at + 1] == "the"
              and words[at + 2] in ("left", "right", "front", "back")]  # fmt: skip
@@ -275,20 +261,6 @@ def _verb_again(tokens: Sequence[Token]) -> list[Token]:
             told = [(replace(part[0], text="and"), replace(part[0], text=words[at]), *part) for part in parts]
             return [*tokens[: at + 1], *[each for part in told for each in part][2:], *tokens[end:]]
     return list(tokens)
-
-
-def _full_sides(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a fork left and a knife right of a plate" as "to the left and ... to the right of a plate"."""
-    words = [token.text for token in tokens]
-    sides = [at for at in range(1, len(words) - 1) if words[at] in ("left", "right")]
-    bare = [at for at in sides if words[at - 1] not in ("the", "its") and words[at + 1] in ("and", "of")]
-    if [words[at + 1] for at in bare] != ["and", "of"]:
-        return list(tokens)
-    made: list[Token] = []
-    for at, token in enumerate(tokens):
-        made += [replace(token, text=text) for text in ("to", "the")] if at in bare else []
-        made.append(token)
-    return made
 
 
 def fronted(tokens: Sequence[Token]) -> list[Token]:

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 from pat3d.plan.grammar.chunking.plausible import Plausible
 from pat3d.plan.grammar.rewriting.outcomes import put_back
+from pat3d.plan.grammar.rewriting.wordings import NAME, reworded, wordings
 from pat3d.plan.grammar.words import lexicon, vessels
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
@@ -38,6 +39,8 @@ _NO_PHRASES = (("one", "by", "one"), ("one", "at", "a", "time"), ("one", "after"
                  for place in ("location", "position", "place", "spot")))  # fmt: skip
 """What changes nothing of what is to be done, or no task asks for."""
 _REST = frozenset({"rest", "others"})
+_ALSO = rf"and ((?:{'|'.join(lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys())}) {NAME})"
+_TOO = wordings(((rf"{_ALSO}(?:too|as well) (?=[.,:;-] )", r"and also \1"),))
 FILLING = frozenset({"fill", "load", "stock", "pack"})
 """Verbs of what something is put in or on."""
 _HAVING_TO = tuple(tuple(said.split()) for said in (
@@ -56,7 +59,7 @@ def errands(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if not any(_commands(made, at) for at in range(len(made))):
         return made
     made = _goals_alike(_where_another_is(_holder_first(made)), nouns)
-    return _the_rest(_once_again(_added(_carried(_emptied(put_back(made)))), nouns))
+    return _the_rest(_once_again(reworded(_carried(_emptied(put_back(made))), _TOO), nouns))
 
 
 def _holder_first(tokens: list[Token]) -> list[Token]:
@@ -212,20 +215,6 @@ def _emptied(tokens: Sequence[Token]) -> list[Token]:
 
 def _leads(tokens: Sequence[Token], at: int) -> bool:
     return tokens[at].text in lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys()
-
-
-def _added(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "put the cup on the tray and the bowl too" as "... and also the bowl"."""
-    words = [token.text for token in tokens]
-    for at in range(4, len(words) - 1):
-        size = 1 if words[at] == "too" else 2 if words[at : at + 2] == ["as", "well"] else 0
-        if not size or not tokens[at + size].mark or "and" not in words[:at]:
-            continue
-        joint = at - 1 - words[:at][::-1].index("and")
-        if _leads(tokens, joint + 1) and not any(link_at(tokens, n) for n in range(joint + 1, at)):
-            also = replace(tokens[joint], text="also")
-            return [*tokens[: joint + 1], also, *tokens[joint + 1 : at], *tokens[at + size :]]
-    return list(tokens)
 
 
 def _once_again(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

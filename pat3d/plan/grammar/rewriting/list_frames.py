@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexicon import STANDING
@@ -29,12 +30,13 @@ _PLACES = {
 """Places behind a comma, as they are said of a surface."""
 _EACH_OF = {(4, "sides"): "around", (2, "ends"): "at the ends of", (4, "corners"): "in the corners of"}
 """All of the sides that a thing has, and where is what stands at each."""
+_NOT_ONLY = wordings(((r"not (?:only|just) ((?:[^ ]+ )+?)(?:, )?but (?:also |even )?", r"\1 and"),))
 
 
 def listed_plainly(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence without the frames around a list."""
     tokens = _other_level(_heading(tokens, nouns))
-    tokens = _on_each_shelf(_of_what_kind(_not_only(_on_itself(tokens, nouns)), nouns), nouns)
+    tokens = _on_each_shelf(_of_what_kind(reworded(_on_itself(tokens, nouns), _NOT_ONLY), nouns), nouns)
     return _form_ahead(_rows_of(_at_places_of(_at_each_of(tokens)), nouns))
 
 
@@ -117,19 +119,6 @@ def _on_itself(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
             continue
         made.append(token)
     return made
-
-
-def _not_only(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "holds not only two cups but also a jar" as "holds two cups and a jar"."""
-    words = [token.text for token in tokens]
-    start = next((n for n in range(len(words) - 4) if words[n : n + 2] in (["not", "only"], ["not", "just"])), None)
-    but = next((n for n in range((start or 0) + 3, len(words) - 2) if words[n] == "but"), 0)
-    if start is None or not but:
-        return list(tokens)
-    after = but + 1 + (words[but + 1] in ("also", "even"))
-    before = but - (words[but - 1] == ",")
-    joint = replace(tokens[but], text="and", mark=False, end=tokens[after - 1].end)
-    return [*tokens[:start], *tokens[start + 2 : before], joint, *tokens[after:]]
 
 
 def _rows_of(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:

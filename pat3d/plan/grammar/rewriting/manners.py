@@ -34,12 +34,30 @@ _EXTREME = (
     r"(?:the )?(?:largest|smallest|biggest|tallest|shortest|longest|heaviest|lightest|thickest|thinnest|widest"
     r"|narrowest|big|small|large|tall|short)(?: one)?(?: (?:on|at) the (?:far )?(?:left|right|front|back))?"
 )
+_NO_NAMES = (r"\.", ",", "can", "could", "what", "that", "as", "if", "and", "after", "before", "once", "when", "where",
+             "until", "while")  # fmt: skip
+"""Words before "you" and "I" that are not what those have or use."""
 _ASIDE = tuple(re.compile(rf"(?<!\S){said} ") for said in (
     r"(?:, )?in (?:the (?:dark|light|rain|sun)|(?:bright|dim) light|parallel|random (?:order|positions|places))",
     # "insert the pen tip first"
     rf"(?<!the )(?<!its )(?:{'|'.join(sorted(lexicon.PARTS))})(?:[ -](?:side|end))?[ -]first",
     r"(?:, )?(?:inside out|if (?:possible|needed|necessary)|where possible|as needed|back and forth|(?:at )?random"
     r"|straight (?:up|down))",
+    # "socks in it, mostly grey", "a drawer, half open, with a pen in it", "four forks around a cake, one on each side"
+    r"[,-] (?:mostly|mainly|largely|predominantly) (?!\S+s )\S+(?= [.] )",
+    r", (?:half|partly|partially|slightly|fully|nearly|almost) (?:open|closed|shut|full|empty) ,(?= with )",
+    r", one (?:on|at|to) each (?:side|end|corner)(?: of it)?(?= [,.] )",
+    # "insert the peg into the square hole of the board"
+    r"(?<=into )the (?:[a-z-]+ )?(?:hole|notch|groove|recess|socket) (?:of|in|on)(?= the )",
+    # "fill the cup three quarters with water", "the cup half full with milk", "the books on the shelf, tallest left"
+    r"(?<=\S )(?:(?:a|one|two|three) (?:quarters?|thirds?|half)|half ?way|to the (?:brim|rim|top))(?= (?:full|with) )",
+    r", (?:larg|small|bigg|tall|short|long)est (?:first|(?:on|at) the (?:left|right|front|back))(?= [,.] )",
+    # "the sponge you're holding", "the cup I used", "the second and the third cup are not"
+    rf"(?<=\S ){''.join(f'(?<!{word} )' for word in _NO_NAMES)}(?:you|i|we)"
+    r"(?:'re|'ve|'m| are| have| had| am| were)? (?:just |already |now )?"
+    r"(?:\S+(?:ing|ed)|got|made|bought|put|took|left|chose|drank|gave|saw|lost|found|broke|brought|sent|wore|built|hid)"
+    r"(?: (?:with|up|before|earlier|now|from(?= (?!the |a |my ))))?",
+    r"(?:, |but )(?:the (?:first|second|third|fourth|fifth) \S+ (?:and )?)+(?:is|are) not(?= [.] )",
     # "a lamp taller than either", "three candles, one lit", "place six blocks in two groups of three"
     r"\S+ than (?:either|both|all)",
     rf", {_NUMBER} (?:{'|'.join(lexicon.STATES)})(?= [,.:-] )",
@@ -186,12 +204,16 @@ def _stuffs(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | N
 
 def _aside(tokens: Sequence[Token], words: list[str], nouns: Nouns) -> Told | None:
     """Read "two cups in random places on a tray" as "two cups on a tray"."""
-    said = " ".join(words) + " "
+    said = "".join(f"{word.replace(' ', '_')} " for word in words)
     for found in (found for pattern in _ASIDE for found in pattern.finditer(said)):
         at, end = (said.count(" ", 0, place) for place in found.span())
-        ends = end < len(tokens) and (tokens[end].mark or words[end] in JOINERS | FINITE or link_at(tokens, end))
+        ends = end < len(tokens) and (
+            tokens[end].mark or words[end] in JOINERS | FINITE | {"the"} or link_at(tokens, end)
+        )
         # "The appliance used for heating food": which one is told by it.
         told = words[at - 1] in _KINDS and "for" in words[at + 1 : at + 4]
+        # "A radio and two mugs, one on each side": told of a scene, it is where they are.
+        told = told or ("each" in words[at + 3 : end] and base_verb(words[0]) != words[0])
         if at and ends and not told:
             return [*tokens[:at], *tokens[end:]], [(tokens[at], tokens[end - 1])]
     return None

@@ -70,7 +70,7 @@ def formed(tokens: Sequence[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         follows = [each.text for each in tokens[at + 1 : at + 4]]
         shape = follows[:1] == ["a"] and bool(set(follows[1:]) & _FORMED) and at > 0
-        if token.text in _FORMING and shape and not tokens[at - 1].mark:
+        if token.text in _FORMING and shape and not (tokens[at - 1].mark or tokens[at - 1].text in ("you", "please")):
             made += [replace(token, text="are")] if token.text != "forming" else []
             made.append(replace(token, text="in"))
         elif (

@@ -46,18 +46,6 @@ def put_back(tokens: Sequence[Token]) -> list[Token]:
     return made
 
 
-def together(tokens: Sequence[Token]) -> Sequence[Token]:
-    """`tokens` with "line the cups up on the shelf" as "line up the cups on the shelf"."""
-    words = [token.text for token in tokens]
-    for at in (
-        n for n in range(len(words) - 3) if words[n] == "line" and (not n or words[n - 1] in ("and", ",", "then"))
-    ):
-        end = next(n for n in range(at + 1, len(words)) if tokens[n].mark or words[n] == "up")
-        if words[end] == "up" and end > at + 1 and not any(link_at(tokens, n) for n in range(at + 1, end)):
-            return [*tokens[: at + 1], tokens[end], *tokens[at + 1 : end], *tokens[end + 1 :]]
-    return tokens
-
-
 def closed(tokens: Sequence[Token]) -> list[Token]:
     """`tokens` with "cover the cup with the plate" as "put the plate over the cup"; "close" is as much as "cover"."""
     words = [token.text for token in tokens]

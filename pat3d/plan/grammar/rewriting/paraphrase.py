@@ -33,13 +33,14 @@ from pat3d.plan.grammar.rewriting.openings import formed, opened
 from pat3d.plan.grammar.rewriting.outcomes import with_articles
 from pat3d.plan.grammar.rewriting.parentheses import from_parentheses
 from pat3d.plan.grammar.rewriting.ranges import ranged
-from pat3d.plan.grammar.rewriting.restated import bare, become, covering, emptied, on_top, one_of_two, upon_it
+from pat3d.plan.grammar.rewriting.restated import EMPTIED, bare, become, covering, on_top, one_of_two, upon_it
 from pat3d.plan.grammar.rewriting.several_places import in_several_places
 from pat3d.plan.grammar.rewriting.shorthand import sides
 from pat3d.plan.grammar.rewriting.stated import stated
 from pat3d.plan.grammar.rewriting.surface_places import across_the_top, on_the_surface, stood_where
 from pat3d.plan.grammar.rewriting.towers import from_below, of_things
-from pat3d.plan.grammar.words import lexicon
+from pat3d.plan.grammar.rewriting.wordings import reworded
+from pat3d.plan.grammar.words import lexicon, postures
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.left_out import without_phrases
 from pat3d.plan.grammar.words.lexicon import STANDING
@@ -85,39 +86,16 @@ def plainer(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     tokens = enumerated(text, in_several_places(of_things(from_below(tokens, nouns), nouns)), nouns)
     tokens = with_articles(allowed(without_phrases(bare(tokens, nouns), _SILENT)), nouns)
     tokens = stood_where(covering(opened(stated(on_top(upon_it(tokens), nouns)), nouns), nouns), nouns)
-    tokens = _without_warning(tokens)
-    tokens = counted(fronted(stateless(formed(emptied(tokens)), nouns)), nouns)
+    tokens = counted(fronted(stateless(formed(reworded(tokens, EMPTIED)), nouns)), nouns)
     refuse_negations(tokens)
     tokens = on_the_surface(across_the_top(in_place(ungapped(tokens, nouns), nouns), nouns), nouns)
-    tokens = _sides_of(_its_places(_perfect(become(from_parentheses(text, tokens, nouns)))), nouns)
+    tokens = _sides_of(_its_places(become(from_parentheses(text, tokens, nouns))), nouns)
     tokens = _beside_the_first(tokens, nouns)
     refuse_inserted(text, tokens)
     tokens = _set_off(text, _inserted(tokens))
     tokens = lid_of(lid_on(tokens), nouns)
     borne = which_last(which_carries(which_bears(_plain_words(tokens, nouns), nouns), nouns))
     return of_what(_relatives(by_which(borne, nouns), nouns))
-
-
-def _without_warning(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` without "and be careful around the hot soup": nothing there is asked for, and the audit names it."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 2):
-        if words[at : at + 2] in (["be", "careful"], ["being", "careful"]) and words[at - 1] in ("and", ",", "but"):
-            start = at - 1 - (words[at - 2] == ",")
-            stop = next(n for n in range(at, len(words)) if tokens[n].mark and words[n] != ",")
-            return [*tokens[:start], *tokens[stop:]]
-    return list(tokens)
-
-
-def _perfect(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "has been put" as "is put"."""
-    made: list[Token] = []
-    for token in tokens:
-        if token.text == "been" and made and made[-1].text in ("has", "have", "had"):
-            made[-1] = replace(made[-1], text="is" if made[-1].text == "has" else "are")
-        else:
-            made.append(token)
-    return made
 
 
 def _inserted(tokens: Sequence[Token]) -> list[Token]:
@@ -135,6 +113,10 @@ def _inserted(tokens: Sequence[Token]) -> list[Token]:
     for at in range(1, len(words) - 4):
         if words[at : at + 2] != ["and", ","]:
             continue
+        if postures.is_posture(words[at + 2]) and words[at + 3] == ",":
+            # "and, upside down, a glass on a tray"
+            end = next(n for n in range(at + 4, len(tokens)) if tokens[n].mark or link_at(tokens, n))
+            return [*tokens[: at + 1], *tokens[at + 4 : end], tokens[at + 2], *tokens[end:]]
         size = link_at(tokens, at + 2)
         side = next((n for n in range(6, 1, -1) if tuple(words[at + 2 : at + 2 + n]) in SIDES), 0)
         side *= words[at + 2 + side] == ","

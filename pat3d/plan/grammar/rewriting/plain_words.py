@@ -7,6 +7,7 @@ from functools import partial
 
 from pat3d.plan.grammar.rewriting.acting import asked_of_the_robot
 from pat3d.plan.grammar.rewriting.amounts import worked_out
+from pat3d.plan.grammar.rewriting.beforehand import several_told_by_rank
 from pat3d.plan.grammar.rewriting.carried_clauses import of_the_carried
 from pat3d.plan.grammar.rewriting.compounds import compounds
 from pat3d.plan.grammar.rewriting.drinks import of_drinks
@@ -28,6 +29,7 @@ from pat3d.plan.grammar.rewriting.tiers import levels_of
 from pat3d.plan.grammar.rewriting.told_by_rank import by_rank
 from pat3d.plan.grammar.rewriting.unlike_rows import of_unlike_rows
 from pat3d.plan.grammar.rewriting.verbs_like_names import without_names_of_verbs
+from pat3d.plan.grammar.rewriting.wordings import in_usual_words
 from pat3d.plan.grammar.words.lexing import Token
 from pat3d.plan.grammar.words.vocabulary import Nouns
 
@@ -41,7 +43,8 @@ def in_plain_words(text: str, tokens: Sequence[Token], nouns: Nouns) -> list[Tok
     things is meant is told last.
     """
     rewritings: tuple[Rewriting, ...] = (
-        without_names_of_verbs, partial(steps, text), partial(ordinals, text), compounds, blocks_of_colours,
+        in_usual_words, without_names_of_verbs, partial(steps, text), partial(ordinals, text), compounds,
+        several_told_by_rank, blocks_of_colours,
         members_set_off, partial(each_at_its_place, text), partial(out_of_brackets, text), asked_of_the_robot,
         of_the_counted, told_behind, of_drinks, known_again, in_full, served, worked_out, subkinds, by_side, by_size,
         of_the_carried, by_rank, at_row_ends, of_unlike_rows, levels_of,

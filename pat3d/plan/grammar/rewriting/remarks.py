@@ -10,6 +10,7 @@ from collections.abc import Collection, Sequence
 
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import JOINERS, link_at
+from pat3d.plan.grammar.words.descriptions import only_describes
 from pat3d.plan.grammar.words.lexing import Span, Token, singulars
 from pat3d.plan.grammar.words.links import FINITE, LINKS
 from pat3d.plan.grammar.words.measures import is_measure
@@ -158,6 +159,7 @@ class Remarks:
             # "A teapot on a table, 8k, unreal engine"
             return end
         opens = first in _OPENING | lexicon.SUPERLATIVES.keys() or first.endswith(("ed", "ing", "ly"))
+        opens = opens or only_describes(first)
         told = any(is_colour_word(word) or word in ("one", "ones") or word in FINITE for word in words)
         if not opens or first in MOVING or told or self._names_a_thing(at, end):
             return 0

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from pat3d.plan.english import plural
+from pat3d.plan.grammar.rewriting.wordings import wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -14,7 +15,10 @@ from pat3d.plan.grammar.words.modifiers import is_colour_word, is_marked, is_mod
 from pat3d.plan.grammar.words.vocabulary import Nouns
 from pat3d.scene.relations import SUPPORT_KINDS
 
-_EXCEPT = (("except", "for"), ("apart", "from"), ("but", "for"), ("aside", "from"), ("save", "for"), ("except",))
+EMPTIED = wordings(((
+    rf"(?:{'|'.join(lexicon.COPULAS)}) (?:empty|bare|clear|free|clean) (?:(?:except|but|save) for|(?:apart|aside) from"
+    rf"|except) (?=(?:{'|'.join(lexicon.DETERMINERS | lexicon.NUMBERS.keys())}) )", "carries"),))  # fmt: skip
+"""What carries something where it is "empty except for" that."""
 _INTO = frozenset({"in", "into", "inside", "on", "onto", "upon", "to", "at"})
 """Words before what something is put in or on."""
 _COVERING = frozenset({"litter", "litters", "clutter", "clutters", "cluttered", "occupy", "occupies",
@@ -169,18 +173,6 @@ def covering(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
         else:
             made.append(token)
     return made
-
-
-def emptied(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "the tray is empty except for a pen" as "the tray carries a pen"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 4):
-        if words[at] not in ("empty", "bare", "clear", "free", "clean") or words[at - 1] not in lexicon.COPULAS:
-            continue
-        end = next((at + 1 + len(said) for said in _EXCEPT if tuple(words[at + 1 : at + 1 + len(said)]) == said), 0)
-        if end and words[end] in lexicon.DETERMINERS | lexicon.NUMBERS.keys():
-            return [*tokens[: at - 1], replace(tokens[at], text="carries"), *tokens[end:]]
-    return list(tokens)
 
 
 def upon_it(tokens: Sequence[Token]) -> list[Token]:

@@ -16,6 +16,7 @@ from pat3d.plan.grammar.rewriting.next_deeds import next_deeds
 from pat3d.plan.grammar.rewriting.requests import held_over, requested
 from pat3d.plan.grammar.rewriting.talk import spoken_before
 from pat3d.plan.grammar.rewriting.wanted_states import brought_about
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -34,7 +35,13 @@ _MORE = frozenset({"another", "other", "others", "also", "too", "more", "else", 
 _DENYING = frozenset({"no", "not", "nothing", "neither"})
 _MOVED = frozenset({"rolled", "fallen", "slid", "slipped", "dropped", "tumbled", "landed", "bounced", "jumped",
     "climbed", "crept", "crawled", "hopped", "leapt", "flown", "spilled", "spilt", "escaped"})  # fmt: skip
-_FROM = (("out", "of"), ("from",), ("off",))
+_HAVING = "|".join(lexicon.HAVING)
+_APART = wordings((
+    # "A wall with two shelves and, below them, a bench"
+    (rf"((?:{_HAVING}) [^.]*?)and , ((?:[^ .,]+ )+?them ), ", r"\1 . \2 there is"),
+    # "A jug from which two peas have rolled"
+    (rf"(?:, )?(?:out of|from|off) which ((?:[^ .,]+ )+?(?:has|have) (?:{'|'.join(_MOVED)}) )", r". \1 off it"),
+))  # fmt: skip
 _TO = {"into": "in", "onto": "on", "under": "under", "beneath": "under", "underneath": "under", "below": "under"}
 """Where something is that has moved there."""
 _LADEN = frozenset({
@@ -54,13 +61,13 @@ _LEFT = frozenset({"other", "others", "rest", "remaining", "last"})
 
 def sentences(tokens: Sequence[Token], nouns: Nouns) -> list[list[Token]]:
     """The sentences of `tokens`, which end in a stop; each ends in a stop as well."""
-    tokens = _set_apart(_contents(_and_no_more(told_plainly(next_deeds(tokens))), nouns))
+    tokens = reworded(_contents(_and_no_more(told_plainly(next_deeds(tokens))), nouns), _APART)
     cut = with_goals(_cut(tokens, nouns), nouns)
     cut = [each for one in cut for each in held_over(requested(one, len(cut) == 1, nouns))]
     cut = ones_named([each for one in cut for each in told_before(one, nouns)], nouns)
     parts = [part for sentence in cut for part in behind_colons(sentence, nouns)]
     told = _conditions(brought_about(_labelled(parts), nouns))
-    told = [one for each in plainly_asked(_no_longer(told), nouns) for one in _out_of_which(each)]
+    told = plainly_asked(_no_longer(told), nouns)
     told = [coloured_alike(each, nouns) for each in exceptions(_come_to_rest(told))]
     told = one_for_each(_reordered(told, nouns))
     return [sentence for sentence in told if len(sentence) > 1]
@@ -134,19 +141,6 @@ def _and_no_more(tokens: Sequence[Token]) -> list[Token]:
             start = at - (words[at - 1] in ("and", "with"))
             start -= tokens[start - 1].mark
             return _and_no_more([*tokens[:start], *tokens[end:]])
-    return list(tokens)
-
-
-def _set_apart(tokens: Sequence[Token]) -> list[Token]:
-    """`tokens` with "a wall with two shelves and, below them, a bench" as "... Below them there is a bench"."""
-    words = [token.text for token in tokens]
-    for at in range(2, len(words) - 5):
-        end = at + 2 + link_at(tokens, at + 2)
-        inserted = words[at : at + 2] == ["and", ","] and end > at + 2 and words[end : end + 2] == ["them", ","]
-        if inserted and lexicon.HAVING & {*words[:at]}:
-            there = [replace(tokens[end + 1], text=word, mark=False) for word in ("there", "is")]
-            stop = replace(tokens[at + 1], text=".")
-            return [*tokens[:at], stop, *tokens[at + 2 : end + 1], *there, *tokens[end + 2 :]]
     return list(tokens)
 
 
@@ -255,20 +249,6 @@ def _no_longer(told: list[list[Token]]) -> list[list[Token]]:
             there[:1] = before[:used]
         made[-1 if now <= 1 else len(made) :] = [there]
     return made
-
-
-def _out_of_which(sentence: list[Token]) -> list[list[Token]]:
-    """Tell "a jug from which two peas have rolled" as "a jug. two peas have rolled off it."."""
-    words = [token.text for token in sentence]
-    for which in (n for n in range(2, len(words) - 4) if words[n] == "which"):
-        size = next((n for n in (2, 1) if tuple(words[which - n : which]) in _FROM), 0)
-        has = next((n for n in range(which, len(words) - 1) if sentence[n].mark or words[n] in ("has", "have")), 0)
-        if size and words[has] in ("has", "have") and words[has + 1] in _MOVED:
-            start = which - size - (words[which - size - 1] == ",")
-            off = [replace(sentence[which - size], text="off"), replace(sentence[which], text="it")]
-            return [[*sentence[:start], sentence[-1]],
-                    [*sentence[which + 1 : has + 2], *off, *sentence[has + 2 :]]]  # fmt: skip
-    return [sentence]
 
 
 def _come_to_rest(told: list[list[Token]]) -> list[list[Token]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pat3d.plan.grammar.rewriting.instructions import known_verb
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -14,7 +15,10 @@ from pat3d.scene.relations import LATERAL_KINDS
 
 _SIDES = {"left": ("to", "the", "left", "of"), "right": ("to", "the", "right", "of"), "front": ("in", "front", "of"),
           "back": ("behind",), "rear": ("behind",)}  # fmt: skip
-_OFF = (("off",), ("from",), ("off", "of"), ("out", "of"))
+_COUNTED = rf"(?:(?:{'|'.join(lexicon.NUMBERS.keys() | lexicon.DETERMINERS)}) )?"
+_OFF_THE_TOP = wordings(((
+    rf"(?:the|a|an|one) (?P<one>\w+) ((?:off|from|off of|out of) (?:the|a|that|this) (?:{'|'.join(lexicon.TOWERS)}) of "
+    rf"{_COUNTED}(?P=one)e?s )", r"the top \1 \2"),))  # fmt: skip
 _LEADS = lexicon.DETERMINERS | lexicon.POSSESSIVES | lexicon.NUMBERS.keys() | {"it", "them"}
 _SIDED = frozenset({"side", "end", "corner", "edge"})
 _HANGING = frozenset({"hang", "suspend", "dangle"})
@@ -77,7 +81,7 @@ def stack_of(sentence: list[Token]) -> list[Token]:
 
     So is "a plate from the stack of plates" the top one of it.
     """
-    sentence = _off_the_top(sentence)
+    sentence = reworded(sentence, _OFF_THE_TOP)
     words = [token.text for token in sentence]
     for at in range(2, len(words) - 3):
         number = at + 2
@@ -93,21 +97,7 @@ def stack_of(sentence: list[Token]) -> list[Token]:
         name = words[rank + 1] if words[rank + 1] not in ("of", "in") else words[rank - 3] if rank > 2 else ""
         if not name.isalpha() or name in lexicon.DETERMINERS | {"one", "pick", "take"}:
             return sentence
-        plural = f"{name}es" if name.endswith(("s", "x", "ch", "sh")) else f"{name}s"
+        plural = name if singulars(name) else f"{name}es" if name.endswith(("s", "x", "ch", "sh")) else f"{name}s"
         ones = replace(sentence[number], text=plural)
         return [*sentence[: number + 1], ones, *sentence[number + 1 :]]
-    return sentence
-
-
-def _off_the_top(sentence: list[Token]) -> list[Token]:
-    words = [token.text for token in sentence]
-    for at in range(3, len(words) - 4):
-        piled = words[at + 2] == "of" and words[at + 1] in lexicon.TOWERS and words[at] in ("the", "a", "that", "this")
-        off = next((at - size for size in (2, 1) if tuple(words[at - size : at]) in _OFF), 0)
-        if not piled or off < 2 or words[off - 2] not in ("the", "a", "an", "one"):
-            continue
-        listed = at + 3 + (words[at + 3] in lexicon.NUMBERS or words[at + 3] in lexicon.DETERMINERS)
-        if words[off - 1] in singulars(words[listed]):
-            one, name = sentence[off - 2 : off]
-            return [*sentence[: off - 2], replace(one, text="the"), replace(name, text="top"), *sentence[off - 1 :]]
     return sentence

@@ -47,6 +47,15 @@ def counted_in(words: Sequence[str], stop: int, nouns: Nouns) -> tuple[int, str]
 def _in_each(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` with "in the first, a fig; in the second, a pen" as "in the first box is a fig; in the second ..."."""
     words, found = [token.text for token in tokens], list[tuple[int, int]]()
+    ends = (n for n in range(4, len(words) - 1) if words[n] in ORDINALS and words[n + 1] in (",", ".", ";", "and"))
+    behind = [n for n in ends if words[n - 1] == "the" and words[n - 2] in ("in", "on") and not tokens[n - 3].mark]
+    stop = next((n for n in range(behind[0] - 2, 0, -1) if tokens[n].mark), 0) if len(behind) > 1 else 0
+    last = counted_in(words, stop, nouns) if stop else None
+    for at in reversed(behind if last is not None else ()):
+        # "Three boxes: figs in the first, pens in the second"
+        named = [replace(tokens[at], text=word) for word in last[1].split()] if last is not None else []
+        tokens = [*tokens[: at + 1], *named, *tokens[at + 1 :]]
+    words = [token.text for token in tokens]
     for at in range(2, len(words) - 5):
         led = (tokens[at - 1].mark or words[at - 1] == "and") and words[at] in ("in", "on", "inside")
         side = 2 * (words[at + 2] in ("left", "middle", "right") and words[at + 3] == "one")

@@ -74,6 +74,9 @@ def from_below(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     if count and count < len(parts) + (len(parts) == 1):
         return list(tokens)
     lowest = [part for part in named if part is not None]
+    builds = _BUILDING & {*said[:2]} and _BUILT & {*said} and not tail
+    if builds and headless and count in (0, len(parts)) and len(parts) > 1:
+        return _one_on_another(tokens, [[replace(part[0], text="the"), *part[1:]] for part in lowest])
     if noun is not None and count > len(parts):
         *number, others = _others(noun, count - len(parts))
         lowest.insert(len(parts) > 1, [*number, *look, others])

@@ -11,6 +11,7 @@ from pat3d.assets.materials import find_material
 from pat3d.plan.grammar.rewriting.named_like_colours import with_their_amount
 from pat3d.plan.grammar.rewriting.of_material import made_of
 from pat3d.plan.grammar.rewriting.respectively import respectively
+from pat3d.plan.grammar.rewriting.wordings import reworded, wordings
 from pat3d.plan.grammar.words import lexicon
 from pat3d.plan.grammar.words.boundaries import link_at
 from pat3d.plan.grammar.words.lexing import Token, singulars
@@ -25,6 +26,8 @@ all of the/these/those/my/your/our/his/her = all 1
 they are both/all = 1 are
 all of it = it
 near by = nearby
+has been = is
+have/had been = are
 off center/centre on/in/at = 2
 in the side of = at the side of
 a group/cluster/set/combination containing/comprising =
@@ -113,9 +116,16 @@ def _written_out(line: str) -> Iterator[tuple[tuple[str, ...], tuple[str, ...]]]
 
 _PLAINER = dict(pair for line in _USUAL.strip().splitlines() for pair in _written_out(line))
 """What is said, and the words instead."""
+_VARIED = frozenset({"different", "various", "varying", "assorted", "mixed"})
 _PAPER, _SHEETS = "stack of paper", frozenset({"paper", "parchment", "paperwork", "manuscripts", "sheets"})
 _OPENINGS = (("one", "after", "the", "other", ":"), ("one", "by", "one", ":"), ("in", "two", "steps", ":"))
-_ASKING = frozenset({"could", "can", "would", "will", "you", "please", "kindly"})
+_ASKING = r"(?:(?:could|can|would|will|you|please|kindly) )*"
+_BEGINNINGS = wordings((
+    (rf"(?<!. )({_ASKING})(?:set up|put together) (?!(?:{'|'.join(lexicon.DEFINITE)}) )", r"\1 create"),
+    # "Don't use a tray": there is none.
+    (r"(?<!. )(?:do not|don't|never) (?:use|add) (?:a|an|any) ((?:(?!to )[^ ,]+ )+)(?=\. )", r"there is no \1"),
+    (r"([^ ]+ [^ ]+ [^ ]+ )after (?:that|this) (?=\. )", r"\1"),
+))  # fmt: skip
 _PARTICLES = frozenset({"on", "off", "up", "down", "out", "open", "over", "in", "away"})
 _CUT = frozenset({"cut", "split", "torn", "broken", "blown", "worn", "shut", "spread", "swept"})
 _SIDES = frozenset({"on", "at", "to", "by", "from"})
@@ -123,29 +133,20 @@ _SIDES = frozenset({"on", "at", "to", "by", "from"})
 
 def varied(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     """`tokens` of one sentence in the usual words."""
-    usual = _papers(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns)
+    usual = _papers(_many_coloured(_plain(_alike(_hued(_begun(tokens)), nouns)), nouns), nouns)
     tokens = respectively(_compared(usual, nouns))
     return with_their_amount(made_of(_seasoned(_one_adjective(_one_word(tokens, nouns), nouns)), nouns), nouns)
 
 
 def _begun(tokens: Sequence[Token]) -> Sequence[Token]:
     """`tokens` with "one after the other: put the cup away" as "put the cup away", "set up a desk" as "create ..."."""
+    tokens = reworded(tokens, _BEGINNINGS)
     words = [token.text for token in tokens]
-    at = next((n for n, word in enumerate(words) if word not in _ASKING), 0)
-    if words[at : at + 2] in (["set", "up"], ["put", "together"]) and words[at + 2] not in lexicon.DEFINITE:
-        return [*tokens[:at], replace(tokens[at], text="create"), *tokens[at + 2 :]]
     opening = next((said for said in _OPENINGS if tuple(words[: len(said)]) == said), ())
-    at = 1 + (words[:2] == ["do", "not"])
-    forbids = (at == 2 or words[0] in ("don't", "never")) and words[at] in ("use", "add")
-    if forbids and words[at + 1] in ("a", "an", "any") and not {"to", ","} & {*words}:
-        # "Don't use a tray": there is none.
-        return [*(replace(tokens[0], text=word) for word in ("there", "is", "no")), *tokens[at + 2 :]]
     told = len(words) > 6 and "and" in words and base_verb(words[0]) == words[0]
     if told and words[-2] == "that" and link_at(tokens, len(words) - 3):
         # "Put the mat on the desk and the cup on that": on what is put there.
         return [*tokens[:-2], replace(tokens[-2], text="it"), tokens[-1]]
-    if tuple(words[-3:-1]) in (("after", "that"), ("after", "this")) and len(words) > 5:
-        return [*tokens[:-3], tokens[-1]]  # "clear the tray after that"
     return tokens[len(opening) :] if opening and base_verb(words[len(opening)]) == words[len(opening)] else tokens
 
 
@@ -184,6 +185,23 @@ def _hued(tokens: Sequence[Token]) -> Sequence[Token]:
         made.append(tokens[at])
         at += 1
     return made
+
+
+def _many_coloured(tokens: list[Token], nouns: Nouns) -> list[Token]:
+    """`tokens` with "pens of different colours" as "different coloured pens"."""
+    words = [token.text for token in tokens]
+    for at in range(1, len(words) - 3):
+        listed = words[at + 2] not in ("colors", "colours") or words[at + 3] in ("(", ":")
+        # "Four cups, each of a different colour, stand on a tray"
+        end = at - (words[at - 1] == ",")
+        sizes = (n for n in (3, 2, 1) if n <= end and (found := nouns.match(words[end - n : end])) and found.plural)
+        if words[at] != "of" or words[at + 1] not in _VARIED or listed or not (name := next(sizes, 0)):
+            continue
+        first, rest = tokens[end - name], at + 3 + (end < at and words[at + 3] == ",")
+        look = [replace(first, text=word, end=first.start) for word in ("different", "colored")]
+        named = [*tokens[end - name : end - 1], replace(tokens[end - 1], end=tokens[at + 2].end)]
+        return [*tokens[: end - name], *look, *named, *tokens[rest:]]
+    return tokens
 
 
 def _alike(tokens: Sequence[Token], nouns: Nouns) -> Sequence[Token]:

@@ -232,9 +232,27 @@ def _made_sure(tokens: list[Token]) -> list[Token]:
         last = _LAST.search(_said(tokens[:-1])) if size else None
         # "See to it that the pen is in the mug in the end"
         stop = -1 - len(last.group().split()) if last else -1
-        if size and (done := _deeds([*tokens[at + size : stop], tokens[-1]], tokens[at])):
+        rest = [*tokens[at + size : stop], tokens[-1]]
+        if size and (done := _put_there(rest, tokens[at]) or _deeds(rest, tokens[at])):
             return [*tokens[:at], *done]
     return tokens
+
+
+def _put_there(tokens: Sequence[Token], first: Token) -> list[Token]:
+    """`tokens` with "there is a cup and two forks on the tray" as "put the cup and the two forks on the tray"."""
+    tokens = [token for token in tokens if token.text not in ("exactly", "precisely")]
+    words = [token.text for token in tokens]
+    place = next((n for n in range(3, len(words) - 2) if link_at(tokens, n) and words[n] not in ("of", "with")), 0)
+    counted = [n for n in range(2, place) if words[n - 1] in (",", "and", *lexicon.COPULAS)]
+    told = all(words[n] in _MADE_UP or words[n].isdecimal() for n in counted if words[n] != "and")
+    if words[0] != "there" or words[1] not in lexicon.COPULAS or not place or not told:
+        return []
+    made = [replace(first, text="put")]
+    for n in range(2, place):
+        single = n in counted and (words[n] in ("a", "an", "one", "some", "1"))
+        made += [replace(tokens[n], text="the")] if n in counted and words[n] != "and" else []
+        made += [] if single else [tokens[n]]
+    return [*made, *tokens[place:]]
 
 
 def _told_sure(tokens: list[Token]) -> list[Token]:

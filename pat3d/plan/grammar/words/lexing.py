@@ -42,7 +42,10 @@ def _in_between(found: re.Match[str]) -> str:
 
 
 def _labelled(found: re.Match[str]) -> str:
-    """Tell "boxes A and B" as "two boxes labelled A and B"."""
+    """Tell "boxes A and B" as "two boxes labelled A and B"; as "box A and box B" where "box C" is told of as well."""
+    known = (one for one in singulars(found[1].lower()) if re.search(rf"\b(?i:{one}) [A-H]\b", found.string))
+    if one := next(known, ""):
+        return re.sub("[A-H]", lambda letter: f"{one} {letter[0]}", found[2])
     number = len(re.findall("[A-H]", found[2]))
     return f"{list(_SPELLED)[number - 1]} {found[1].lower()} labelled {found[2]}"
 

@@ -222,7 +222,9 @@ class Nouns:
         for at in range(3, len(word) - 2):
             if is_modifier(word[:at]) and self.match([word[at:]]):
                 return word[:at], word[at:]
-        return ()
+        # "A dishbowl" is a bowl.
+        parts = ((word[:at], word[at:]) for at in range(3, len(word) - 2))
+        return next(((head,) for first, head in parts if self.match([first]) and self.match([head])), ())
 
     def resembles_noun(self, word: str) -> bool:
         """Whether `word` is probably a misspelled noun."""
