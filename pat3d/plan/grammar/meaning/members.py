@@ -305,6 +305,10 @@ class Members(ByPlace):
             if own := [item for item, size in sizes.items() if size in alike]:
                 return own[:wanted]
             groups = [group for group in groups if len(group.items) > 1]
+            apart = [group for group in groups if group.modifiers.size_word not in ("", words.size_word)]
+            if apart and len(apart) == len(groups):
+                # "The two smaller bowls inside the big one": another bowl.
+                return self._one_like(apart[0].items, phrase)
         for group in groups:
             own = [item for item in group.items if words.colours and words.colours[0] in colours_of(item)]
             if own and phrase.definite:
