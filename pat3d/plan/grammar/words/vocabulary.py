@@ -30,6 +30,9 @@ _NO_SLIPS = frozenset({"stair", "stock", "sconce", "breaker", "blinder", "tuner"
 """Words of their own, each a letter away from a noun: stairs are no stars."""
 _LONG_ENOUGH = 5
 """Letters of a word that is recognised though misspelled."""
+_HEADS = frozenset({"bowl", "box", "tray", "cup", "jar", "pot", "basket", "rack", "table", "shelf", "board", "plate",
+    "lamp", "bin", "bag", "bottle", "mat", "spoon", "knife", "brush"})  # fmt: skip
+"""What a compound without a gap is a kind of."""
 
 
 def _slipped(word: str, name: str) -> bool:
@@ -222,9 +225,9 @@ class Nouns:
         for at in range(3, len(word) - 2):
             if is_modifier(word[:at]) and self.match([word[at:]]):
                 return word[:at], word[at:]
-        # "A dishbowl" is a bowl.
-        parts = ((word[:at], word[at:]) for at in range(3, len(word) - 2))
-        return next(((head,) for first, head in parts if self.match([first]) and self.match([head])), ())
+        # "A dishbowl" is a bowl, "a bagpipe" is no pipe.
+        parts = ((word[:at], word[at:]) for at in range(3, len(word) - 2) if word[at:] in _HEADS)
+        return next(((head,) for first, head in parts if self.match([first])), ())
 
     def resembles_noun(self, word: str) -> bool:
         """Whether `word` is probably a misspelled noun."""
