@@ -2,6 +2,7 @@
 
 import pytest
 
+from pat3d.errors import PromptError
 from pat3d.plan.grammar.planner import GrammarPlanner
 
 PLANNER = GrammarPlanner()
@@ -177,3 +178,9 @@ def test_each_thing_is_where_it_is_said(sentence: str, relations: set[str]):
 
 def test_what_is_assumed_of_screens_is_noted():
     assert 'assumed: "two monitors" on "desk"' in PLANNER.plan("an office with a chair, desk and two monitors").notes
+
+
+def test_what_breaks_off_is_no_crash():
+    with pytest.raises(PromptError, match="names no object"):
+        PLANNER.plan("There is")
+    assert [obj.name for obj in PLANNER.plan("A mug. There are").objects] == ["mug"]

@@ -46,7 +46,8 @@ def _also_there(tokens: list[Token], nouns: Nouns) -> list[Token]:
     words, place, start = [token.text for token in tokens], list[Token](), 0
     for stop in [n for n, word in enumerate(words) if word == "."]:
         said = words[start:stop]
-        there = next((n for n in range(min(3, len(said))) if said[n] == "there" and said[n + 1] in ("is", "are")), -1)
+        opens = (n for n in range(min(3, len(said) - 2)) if said[n] == "there" and said[n + 1] in ("is", "are"))
+        there = next(opens, -1)
         more = {"also", *(each[-1] for each in _TOO)} & {*said[:there], said[there + 2], said[-1]} if there >= 0 else {}
         links = [n for n in range(start, stop) if link_at(tokens, n) and words[n] not in ("of", "with", "as")]
         names = [found for n in range(start, stop) if (found := nouns.match(words[n : n + 1])) is not None]

@@ -114,6 +114,9 @@ def _rewritten(made: list[Token], it: _Comparison) -> list[Token]:
         return _one_counted(made, it, it.first, second.number + it.more)
     if first is not None and first.told and (first.number - it.more) > 0:
         return _one_counted(made, it, it.second, first.number - it.more)
+    if it.more == 0 and it.second[0] > it.place[1] + 2 and made[it.end].mark:
+        # "As many forks as there are knives"
+        return [*made[: it.place[1] + 1], *made[it.second[0] :]]
     if it.more == 0 or not (it.exact or all(singulars(made[end - 1].text) for _, end in (it.first, it.second))):
         return made
     many, some = _WORDS[1 if it.more > 0 else -1]

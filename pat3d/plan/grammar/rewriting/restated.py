@@ -113,6 +113,8 @@ def bare(tokens: Sequence[Token], nouns: Nouns) -> list[Token]:
     for at, token in enumerate(tokens):
         if token.text == "others" and tokens[min(at + 1, len(tokens) - 1)].text in ("stay", "remain"):
             token = replace(token, text="rest")
+        if token.text == "between" and "jaws" in [other.text for other in tokens[at + 2 : at + 4]]:
+            token = replace(token, text="in")
         before, follower = (kept[-1].text if kept else ""), tokens[min(at + 1, len(tokens) - 1)]
         kept_rest = token.text in ("others", "rest", "other") and before == "the" and is_colour_word(follower.text)
         if kept_rest and tokens[min(at + 2, len(tokens) - 1)].mark:
