@@ -22,6 +22,7 @@ from pathlib import Path
 from pat3d.assets.catalogue import lookup
 from pat3d.assets.colours import find_colour
 from pat3d.errors import PromptError
+from pat3d.plan.doors import DOORS, HINGED
 from pat3d.plan.drawers import CABINETS, DRAWER, DRAWER_CABINET
 from pat3d.plan.grammar.planner import GrammarPlanner
 from pat3d.plan.grammar.words.lexicon import GENERICS, HOUSES
@@ -38,7 +39,7 @@ _KINDS = {
 }  # fmt: skip
 _NOUNS = Nouns(lookup)
 _ALSO_MADE = (("bowl", "fruit bowl"), ("box", "storage box"), ("drawer", "open drawer"),
-              *((noun, DRAWER_CABINET) for noun in CABINETS), *HOUSES.items())  # fmt: skip
+              *((noun, DRAWER_CABINET) for noun in CABINETS), *HOUSES.items(), *HINGED.items())  # fmt: skip
 """What else a thing may be made as that is labelled so."""
 
 
@@ -158,8 +159,8 @@ def judge(label: Label, plan: ScenePlan) -> tuple[str, list[str]]:
         short = not own if want.count is None else len(own) < want.count
         if short and not want.optional:
             wrong.append(f"lacks {want.words}")
-    # What a drawer is in is made though it is not named, and told.
-    wrong += [f"adds {obj.name}" for obj in left if obj.noun != DRAWER_CABINET]
+    # What a drawer is in, and a door, is made though it is not named, and told.
+    wrong += [f"adds {obj.name}" for obj in left if obj.noun != DRAWER_CABINET and obj.noun not in DOORS]
     pairs: Counter[tuple[int, str, int]] = Counter()
     for rel in plan.relations:
         if rel.child in owner and rel.parent in owner:
