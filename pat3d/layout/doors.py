@@ -102,10 +102,8 @@ def in_sockets(door: Placed, case: Placed) -> tuple[bool, str]:
 def swept(members: Sequence[Placed]) -> list[Array]:
     """What the doors among `members` take up when they turn, seen from above, shape (n, 2) each [m], with a hand."""
     found = []
-    for door in members:
-        if door.body.asset.noun not in DOORS:
-            continue
-        case = next(one for one in members if turns(door.body.asset, one.body.asset))
+    hung = ((door, case) for door in members for case in members if turns(door.body.asset, case.body.asset))
+    for door, case in hung:
         hinge = hinge_of(door.body.asset, case.body.asset)
         way, scale = doorway_of(door.body.asset)
         angles = np.radians(np.linspace(0.0, OPEN, 7))

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pat3d.assets.catalogue import make
 from pat3d.assets.catalogue.doors import COLLAR, DOORWAYS, LEAF, PIN, PLAY
 from pat3d.check.certificate import certify
 from pat3d.check.penetration import penetration
@@ -89,6 +90,14 @@ def test_nothing_is_laid_out_where_a_door_turns():
             own = corners @ case.rotation[:2, :2]
             swept = (np.hypot(*own.T) < reach) & (own[:, 0] > 0.0) & (own[:, 1] < 0.0)
             assert not swept.any(), obj.name
+
+
+def test_a_door_that_is_in_no_case_takes_up_what_it_stands_on():
+    """As a plan of others may have it: on a table, beside a mug."""
+    scene = door_scene("fridge")
+    assets = {"table": make("table"), "door": scene["door"].asset, "mug": make("mug")}
+    on = tuple(Relation(child=name, kind="on", parent="table") for name in ("door", "mug"))
+    assert {*arrange(assets, on, seed=0).poses} == {"table", "door", "mug"}
 
 
 def test_a_second_door_is_refused():
