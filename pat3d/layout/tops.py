@@ -16,7 +16,7 @@ from pat3d.layout.bodies import Array, Placed
 from pat3d.layout.containers import Column, lower, pack
 from pat3d.layout.doors import swept
 from pat3d.layout.drawers import ways_out
-from pat3d.layout.flat import Item, Lateral, Spot
+from pat3d.layout.flat import Item, Lateral, Spot, Surface
 from pat3d.layout.formations import Wishes
 from pat3d.layout.frames import FlatRegion
 from pat3d.layout.group import Group
@@ -33,6 +33,8 @@ _LEVEL = 1e-3
 JITTER = 0.015
 """Offset of stacked things, as a share of their size."""
 
+_EDGE = 0.03
+"""Left free of what moves at the edges of a surface that it would cover [m]."""
 _WALLED = frozenset(
     {"bed", "sofa", "couch", "bookshelf", "bookcase", "shelf", "wardrobe", "dresser", "cabinet", "desk", "piano"}
     | {"bedside table", "nightstand", "armchair", "filing cabinet", "floor lamp", "mirror"}
@@ -88,11 +90,19 @@ def spread(
     return sorted(placed, key=lambda group: order[group.name]), notes
 
 
-def item_of(group: Group, *, turnable: bool) -> Item:
-    """The outline of `group` from above, relative to its origin."""
+def item_of(group: Group, *, turnable: bool, on: Surface | None = None) -> Item:
+    """The outline of `group` from above, relative to its origin.
+
+    What drawers and doors take up when they move is of it, as far as the surface `on` has room: beyond it is air.
+    """
     origin = group.root.position[:2]
-    points = np.concatenate([*(member.vertices[:, :2] for member in group.members), *ways_out(group.members),
-                             *swept(group.members)])  # fmt: skip
+    body = np.concatenate([member.vertices[:, :2] for member in group.members])
+    ways = [*ways_out(group.members), *swept(group.members)]
+    if on is not None and on.limited:
+        least, most = body.min(axis=0), body.max(axis=0)
+        spare = np.maximum(2 * np.array(on.half_size) - (most - least) - 2 * _EDGE, 0.0)
+        ways = [np.clip(way, least - spare, most + spare) for way in ways]
+    points = np.concatenate([body, *ways])
     low, high = points.min(axis=0), points.max(axis=0)
     noun = group.root.body.asset.noun
     return Item(
@@ -204,7 +214,7 @@ def _on_region(
     if len(share) == 1 and not top.given and share[0].name not in top.wishes.places:
         alone = _alone(top, region, share[0], obstacles, rng, notes)
         return None if alone is None else [_somewhere(top, region, share[0], alone, obstacles, rng)]
-    items = [item_of(group, turnable=group.name in top.turnable) for group in share]
+    items = [item_of(group, turnable=group.name in top.turnable, on=region.surface) for group in share]
     pinned = {group.name: group.root.position[:2] - region.centre[:2] for group in top.given}
     every = [*(item_of(group, turnable=False) for group in top.given), *items]
     pinned |= {name: at for one in top.settings for name, at in one.origins.items() if name in names}

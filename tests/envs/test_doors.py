@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 pytest.importorskip("gymnasium")
 
+from pat3d.envs.grasping.site import Site
 from pat3d.envs.tasks.mechanisms import mechanism_of
 from pat3d.envs.tasks.registry import parse_task, possible_tasks
 from pat3d.errors import TaskError
@@ -68,6 +71,14 @@ def test_no_robot_stands_where_the_door_turns(shut):
         assert np.linalg.norm(np.array(needs.swept) - end[:2], axis=1).min() < 0.08
     assert len(needs.fronts) == len(needs.visit)
     assert needs.fronts[-1] - needs.fronts[0] == pytest.approx(-way.goal("open"), abs=0.02)
+
+
+def test_a_base_has_no_room_beside_where_a_door_turns(shut):
+    """A metre before the microwave a base has room, and none where something is swept there."""
+    needs = parse_task("open:door").needs(shut)
+    free, spot = Site.of(shut, needs), (0.0, -1.0, 0.0)
+    assert free._free(spot, 0.1)
+    assert not Site.of(shut, replace(needs, swept=((0.05, -1.0),)))._free(spot, 0.1)
 
 
 @pytest.fixture(scope="module")
